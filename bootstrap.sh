@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# Installs what is missing (Debian packages), builds, and does one of:
+#   run       the main job: 6061-T6 through 95 measured curves; prints the table, shows the figure
+#   test      unit and verification tests
+#   validate  the validation set: its table and the figures of plots/gallery   (validate NAME: one of them; --list)
+#   bench     nanoseconds per point and update, with the environment beside them
+# Environment: BRISANCE_PRESET (default release; ci makes warnings errors), BRISANCE_JOBS (default: all cores).
+set -euo pipefail
+cd "$(dirname "$0")"
+
+packages=(build-essential cmake ninja-build pkg-config libeigen3-dev librandom123-dev libboost-dev libhdf5-dev
+          libtomlplusplus-dev libudunits2-dev libcli11-dev libfmt-dev libceres-dev libgtest-dev
+          libgnuplot-iostream-dev gnuplot-nox libboost-iostreams-dev libboost-filesystem-dev libboost-system-dev)
+
+usage() {
+  sed -n '2,7s/^# \{0,1\}//p' "$0"
+  exit 2
+}
+
+install_packages() {
+  local missing=()
+  for package in "${packages[@]}"; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return
+  echo "bootstrap: installing ${missing[*]}"
+  local as_root=()
+  [ "$(id -u)" -eq 0 ] || as_root=(sudo)
+  "${as_root[@]}" apt-get update -qq
+  DEBIAN_FRONTEND=noninteractive "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+preset=${BRISANCE_PRESET:-release}
+jobs=${BRISANCE_JOBS:-$(nproc)}
+build=build/$preset
+
+build() {
+  cmake --preset "$preset" "${@}" -Wno-dev >"build-$preset.log" 2>&1 || { cat "build-$preset.log"; exit 1; }
+  rm -f "build-$preset.log"
+  cmake --build "$build" -j "$jobs"
+}
+
+show() {
+  echo "figure: $1"
+  if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && command -v xdg-open >/dev/null; then xdg-open "$1" >/dev/null 2>&1 || true; fi
+}
+
+[ $# -ge 1 ] || usage
+action=$1
+shift
+case $action in
+  run)
+    install_packages
+    build -DBRISANCE_BUILD_TESTS=OFF
+    mkdir -p out
+    "$build/driver/pointdriver" compare data/cases/point_6061_t6.toml -o out/6061_t6.csv --plot out/6061_t6.png "$@"
+    show out/6061_t6.png
+    ;;
+  test)
+    install_packages
+    build -DBRISANCE_BUILD_TESTS=ON
+    ctest --preset "$preset" -j "$jobs" "$@"
+    ;;
+  validate)
+    install_packages
+    build -DBRISANCE_BUILD_TESTS=ON
+    "$build/plots/gallery" "$@"
+    ctest --test-dir "$build" -L validation --output-on-failure
+    ;;
+  bench)
+    install_packages
+    build -DBRISANCE_BUILD_TESTS=ON
+    "$build/tests/bench" "$@"
+    ;;
+  *) usage ;;
+esac

@@ -1,0 +1,414 @@
+#include "driver/compare.hpp"
+
+#include <fmt/format.h>
+#include <fmt/os.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "driver/commands.hpp"
+#include "driver/follow.hpp"
+#include "driver/plot.hpp"
+#include "driver/progress.hpp"
+#include "models/input/csv.hpp"
+
+namespace brisance::driver {
+namespace {
+
+/// What the [experiment] table says about a file of measurements: which column is what.
+struct Columns {
+  std::string test, author, temperature, strain_rate, pressure, plastic_strain, stress;
+};
+
+std::vector<Test> read_tests(const std::filesystem::path& path, const Columns& names,
+                             const std::map<std::string, std::string>& where) {
+  const CsvFile csv = CsvFile::load(path);
+  const std::vector<std::string> test = csv.texts(names.test), author = csv.texts(names.author);
+  const std::vector<double> temperature = csv.numbers(names.temperature, Unit::K), rate = csv.numbers(names.strain_rate, Unit::per_s),
+                            strain = csv.numbers(names.plastic_strain, Unit::one), stress = csv.numbers(names.stress, Unit::Pa);
+  const std::vector<double> pressure =
+      names.pressure.empty() ? std::vector<double>(csv.rows(), 0.0) : csv.numbers(names.pressure, Unit::Pa);
+  std::map<std::string, std::vector<std::string>> filters;
+  for (const auto& [column, value] : where) filters[column] = csv.texts(column);
+  std::vector<Test> tests;
+  for (std::size_t row = 0; row < csv.rows(); ++row) {
+    const bool wanted = std::all_of(where.begin(), where.end(), [&](const auto& w) { return filters[w.first][row] == w.second; });
+    if (!wanted) continue;
+    if (tests.empty() || tests.back().name != test[row])
+      tests.push_back({test[row], author[row], temperature[row], rate[row], pressure[row], {}, {}});
+    tests.back().plastic_strain.push_back(strain[row]);
+    tests.back().stress.push_back(std::abs(stress[row]));
+  }
+  return tests;
+}
+
+/// The path of a test: superposed pressure, then uniaxial stress at the measured rate.
+LoadingPath path_of(const Test& test, const Protocol& protocol, double largest_plastic_strain) {
+  LoadingPath path;
+  path.title = test.name;
+  path.temperature = test.temperature;
+  path.heat = test.strain_rate >= protocol.adiabatic_from ? Heat::adiabatic : Heat::isothermal;
+  path.on_failure = OnFailure::keep_going;  // a criterion that fires does not end the measured curve
+  path.strain_increment = protocol.strain_increment;
+  path.output.every = 1;
+  const auto hold = [](double SymmetricTensor<double>::*component, double stress) {
+    SymmetricTensor<double> unit;
+    unit.*component = 1.0;
+    return FreeDirection{to_tensor(unit), unit, {}, stress};
+  };
+  using S = SymmetricTensor<double>;
+  if (test.pressure != 0.0) {
+    PathSegment squeeze;
+    squeeze.where = test.name + ": superposed pressure";
+    squeeze.free.push_back({Tensor<double>::identity(), (-1.0 / 3.0) * S::identity(), {}, test.pressure});
+    squeeze.duration = 0.01 / test.strain_rate;
+    path.segments.push_back(squeeze);
+  }
+  PathSegment load;
+  load.where = test.name;
+  load.velocity_gradient.xx = protocol.compression ? -test.strain_rate : test.strain_rate;
+  load.free = {hold(&S::yy, -test.pressure), hold(&S::zz, -test.pressure)};
+  load.until = Until{"plastic_strain", largest_plastic_strain};
+  path.segments.push_back(load);
+  return path;
+}
+
+/// Linear interpolation in a curve whose x increases; beyond its ends, its end values.
+double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  const auto above = std::upper_bound(x.begin(), x.end(), at);
+  if (above == x.begin()) return y.front();
+  if (above == x.end()) return y.back();
+  const std::size_t i = static_cast<std::size_t>(above - x.begin());
+  return y[i - 1] + (at - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
+}
+
+bool counts(const Test& test, std::size_t i, const Protocol& protocol) {
+  return test.plastic_strain[i] >= protocol.smallest_plastic_strain && test.stress[i] > 0.0;
+}
+
+TestResult compare_one(const Test& test, const Material& material, const Protocol& protocol) {
+  TestResult result;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < test.plastic_strain.size(); ++i)
+    if (counts(test, i, protocol)) largest = std::max(largest, test.plastic_strain[i]);
+  if (largest == 0.0) {
+    result.note = "no point beyond the smallest plastic strain";
+    return result;
+  }
+  const LoadingPath path = path_of(test, protocol, largest);
+  History history(material, path.output);
+  Outcome outcome;
+  try {
+    outcome = follow(material, path, history);
+  } catch (const RunError& error) {
+    result.note = error.what();
+    return result;
+  }
+  if (outcome.failure != FailureCause::none) result.note = fmt::format("{} criterion fired", describe(outcome.failure));
+  const Record& record = history.record();
+  const std::vector<double>&plastic = record.find("plastic_strain")->values, &axial = record.find("stress_xx")->values,
+        &lateral = record.find("stress_yy")->values;
+  for (std::size_t row = 0; row < record.rows(); ++row) {
+    // The elastic part has plastic strain zero all along; its last point is where flow begins.
+    if (!result.plastic_strain.empty() && plastic[row] <= result.plastic_strain.back()) {
+      result.plastic_strain.pop_back();
+      result.stress.pop_back();
+    }
+    result.plastic_strain.push_back(plastic[row]);
+    result.stress.push_back(std::abs(axial[row] - lateral[row]));
+  }
+  double squares = 0.0, relative_squares = 0.0, relative = 0.0;
+  for (std::size_t i = 0; i < test.stress.size(); ++i) {
+    if (!counts(test, i, protocol)) continue;
+    const double error = interpolate(result.plastic_strain, result.stress, test.plastic_strain[i]) - test.stress[i];
+    ++result.points;
+    squares += error * error;
+    relative += error / test.stress[i];
+    relative_squares += error / test.stress[i] * (error / test.stress[i]);
+  }
+  result.rms = std::sqrt(squares / result.points);
+  result.relative_rms = std::sqrt(relative_squares / result.points);
+  result.mean_relative = relative / result.points;
+  return result;
+}
+
+std::string conditions(const Test& test) {
+  std::string text = fmt::format("{:g} K, {:g} /s", test.temperature, test.strain_rate);
+  if (test.pressure != 0.0) text += fmt::format(", {:g} MPa", test.pressure * 1e-6);
+  return text;
+}
+
+void print_table(const Comparison& comparison, const Results& results, double wall_time) {
+  const Protocol& protocol = comparison.protocol;
+  fmt::print("{}\n", comparison.title);
+  fmt::print("uniaxial {}, isothermal below {:g} /s, adiabatic from there; stress at equal plastic strain, from {:g} on\n\n",
+             protocol.compression ? "compression" : "tension", protocol.adiabatic_from, protocol.smallest_plastic_strain);
+  fmt::print("{:14} {:>6} {:>9} {:>9} {:>7}", "author", "T, K", "rate, 1/s", "p, MPa", "points");
+  for (const Model& model : comparison.models) fmt::print("   {:>21}", model.name);
+  fmt::print("\n{:49}", "");
+  for (std::size_t m = 0; m < comparison.models.size(); ++m) fmt::print("   {:>7} {:>6} {:>6}", "RMS,MPa", "RMS,%", "mean,%");
+  fmt::print("\n");
+  for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
+    const Test& test = comparison.tests[t];
+    fmt::print("{:14} {:6g} {:9g} {:9g} {:7}", test.author, test.temperature, test.strain_rate, test.pressure * 1e-6,
+               results.front()[t].points);
+    for (const auto& model : results) {
+      const TestResult& r = model[t];
+      if (r.points > 0) fmt::print("   {:7.1f} {:6.1f} {:+6.1f}", r.rms * 1e-6, 100.0 * r.relative_rms, 100.0 * r.mean_relative);
+      else fmt::print("   {:>21}", "none");
+    }
+    std::string notes;
+    for (std::size_t m = 0; m < results.size(); ++m)
+      if (!results[m][t].note.empty()) notes += fmt::format("  {}: {}", comparison.models[m].name, results[m][t].note);
+    fmt::print("{}\n", notes);
+  }
+  fmt::print("\n{:24} {:>6} {:>7} {:>14} {:>14} {:>9} {:>9} {:>9} {:>11}\n", "model", "tests", "points", "RMS of points",
+             "RMS of tests", "median", "mean", "RMS, MPa", "within 10 %");
+  for (std::size_t m = 0; m < results.size(); ++m) {
+    const Overall all = overall(results[m]);
+    fmt::print("{:24} {:6} {:7} {:12.2f} % {:12.2f} % {:7.2f} % {:+7.2f} % {:9.1f} {:7}/{}\n", comparison.models[m].name, all.tests,
+               all.points, 100 * all.of_points, 100 * all.of_tests, 100 * all.median_of_tests, 100 * all.mean, all.rms * 1e-6,
+               all.within_10_percent, all.tests);
+  }
+  fmt::print("{} curves in {:.2f} s\n", comparison.tests.size() * comparison.models.size(), wall_time);
+}
+
+void write_results(const Comparison& comparison, const Results& results, const std::filesystem::path& directory) {
+  replace_file(directory / "tests.csv", [&](const std::filesystem::path& temporary) {
+    auto out = fmt::output_file(temporary.string());
+    out.print("test,author,temperature [K],strain_rate [1/s],pressure [Pa],points");
+    for (const Model& model : comparison.models)
+      out.print(",{0}: rms [Pa],{0}: relative_rms,{0}: mean_relative,{0}: note", model.name);
+    out.print("\n");
+    for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
+      const Test& test = comparison.tests[t];
+      out.print("{},{},{},{},{},{}", test.name, test.author, test.temperature, test.strain_rate, test.pressure,
+                results.front()[t].points);
+      for (const auto& model : results)
+        out.print(",{},{},{},\"{}\"", model[t].rms, model[t].relative_rms, model[t].mean_relative, model[t].note);
+      out.print("\n");
+    }
+  });
+  replace_file(directory / "points.csv", [&](const std::filesystem::path& temporary) {
+    auto out = fmt::output_file(temporary.string());
+    out.print("test,plastic_strain,measured [Pa],counts");
+    for (const Model& model : comparison.models) out.print(",{} [Pa]", model.name);
+    out.print("\n");
+    for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
+      const Test& test = comparison.tests[t];
+      for (std::size_t i = 0; i < test.stress.size(); ++i) {
+        out.print("{},{},{},{}", test.name, test.plastic_strain[i], test.stress[i], counts(test, i, comparison.protocol) ? 1 : 0);
+        for (const auto& model : results)
+          if (model[t].points > 0) out.print(",{}", interpolate(model[t].plastic_strain, model[t].stress, test.plastic_strain[i]));
+          else out.print(",");
+        out.print("\n");
+      }
+    }
+  });
+}
+
+/// Tests for a panel of the figure: those with the most points among equal conditions, so that curves can be told apart.
+struct Choice {
+  std::string title;
+  std::vector<std::size_t> tests;
+};
+
+template <class Key, class Wanted>
+Choice choose(const std::vector<Test>& tests, std::string title, std::size_t most, Wanted&& wanted, Key&& key) {
+  std::map<double, std::size_t> best;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    if (!wanted(tests[t])) continue;
+    const auto [found, inserted] = best.emplace(key(tests[t]), t);
+    if (!inserted && tests[found->second].stress.size() < tests[t].stress.size()) found->second = t;
+  }
+  std::vector<std::size_t> all;
+  for (const auto& [k, t] : best) all.push_back(t);
+  Choice choice{std::move(title), {}};
+  for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
+    choice.tests.push_back(all[all.size() <= most ? i : i * (all.size() - 1) / (most - 1)]);
+  return choice;
+}
+
+std::vector<Choice> choices_for_figure(const Comparison& comparison) {
+  const std::vector<Test>& tests = comparison.tests;
+  const auto slow = [](const Test& t) { return t.strain_rate < 0.1 && t.pressure == 0.0 && t.stress.size() > 5; };
+  const auto fast = [](const Test& t) { return t.strain_rate >= 900.0 && t.pressure == 0.0 && t.stress.size() > 5; };
+  const auto by_temperature = [](const Test& t) { return std::round(t.temperature / 25.0); };
+  const auto by_rate = [](const Test& t) { return std::floor(std::log10(t.strain_rate) + 1e-9); };
+  const auto room = [](const Test& t) { return std::abs(t.temperature - 297.0) < 5.0 && t.pressure == 0.0 && t.stress.size() > 5; };
+  const auto pressed = [](const Test& t) { return t.pressure > 0.0; };
+  const auto pressed_by = [](const Test& t) { return t.pressure + t.temperature; };
+  std::vector<Choice> all{choose(tests, "slow, isothermal: temperature", 5, slow, by_temperature),
+                          choose(tests, "fast, adiabatic: temperature", 5, fast, by_temperature),
+                          choose(tests, "room temperature: strain rate", 5, room, by_rate),
+                          choose(tests, "superposed pressure", 4, pressed, pressed_by)};
+  std::erase_if(all, [](const Choice& c) { return c.tests.empty(); });
+  return all;
+}
+
+Figure figure_of(const Comparison& comparison, const Results& results) {
+  Figure figure;
+  figure.title = comparison.title;
+  figure.columns = 2;
+  figure.panel_width = 640;
+  figure.panel_height = 430;
+  for (const Choice& choice : choices_for_figure(comparison)) {
+    Panel panel{.title = choice.title, .x_label = "plastic strain", .y_label = "true stress (MPa)"};
+    panel.legend = "outside right top vertical";
+    double strain = 0.0, stress = 0.0;
+    for (std::size_t i = 0; i < choice.tests.size(); ++i) {
+      const std::size_t t = choice.tests[i];
+      const Test& test = comparison.tests[t];
+      Curve measured{conditions(test), {}, {}, Mark::points, static_cast<int>(i)};
+      for (std::size_t k = 0; k < test.stress.size(); ++k) {
+        if (test.plastic_strain[k] < 0.0) continue;
+        measured.x.push_back(test.plastic_strain[k]);
+        measured.y.push_back(test.stress[k] * 1e-6);
+        strain = std::max(strain, test.plastic_strain[k]);
+        stress = std::max(stress, measured.y.back());
+      }
+      panel.curves.push_back(std::move(measured));
+      for (std::size_t m = 0; m < results.size(); ++m) {
+        Curve computed{"", results[m][t].plastic_strain, {}, m == 0 ? Mark::line : Mark::dashed, static_cast<int>(i)};
+        for (const double s : results[m][t].stress) {
+          computed.y.push_back(s * 1e-6);
+          stress = std::max(stress, s * 1e-6);
+        }
+        panel.curves.push_back(std::move(computed));
+      }
+    }
+    for (std::size_t m = 0; m < results.size(); ++m)  // entries of the legend without data of their own
+      panel.curves.push_back({comparison.models[m].name, {0.0, 0.0}, {-1.0, -1.0}, m == 0 ? Mark::line : Mark::dashed, 6});
+    panel.x_range = {0.0, 1.03 * strain};
+    panel.y_range = {0.0, 1.05 * stress};
+    figure.panels.push_back(std::move(panel));
+  }
+  // Error of every test, sorted by temperature and rate.
+  std::vector<std::size_t> order(comparison.tests.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto by_error_panel = [&](const std::string& title, const std::string& label, bool logarithmic, auto&& abscissa) {
+    Panel panel{.title = title, .x_label = label, .y_label = "relative RMS error (%)"};
+    panel.logarithmic_x = logarithmic;
+    panel.legend = "top right";
+    double largest = 0.0;
+    for (std::size_t m = 0; m < results.size(); ++m) {
+      Curve curve{comparison.models[m].name, {}, {}, Mark::points, static_cast<int>(m)};
+      for (const std::size_t t : order) {
+        if (results[m][t].points == 0) continue;
+        curve.x.push_back(abscissa(comparison.tests[t]));
+        curve.y.push_back(100.0 * results[m][t].relative_rms);
+        largest = std::max(largest, curve.y.back());
+      }
+      panel.curves.push_back(std::move(curve));
+    }
+    panel.y_range = {0.0, 1.05 * largest};
+    figure.panels.push_back(std::move(panel));
+  };
+  by_error_panel("error of each test", "temperature (K)", false, [](const Test& t) { return t.temperature; });
+  by_error_panel("error of each test", "strain rate (1/s)", true, [](const Test& t) { return t.strain_rate; });
+  return figure;
+}
+
+}  // namespace
+
+Comparison read_comparison(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  InputFile input = InputFile::load(file);
+  for (const std::string& assignment : overrides) input.set(assignment);
+  TableReader top = input.top();
+  Comparison comparison;
+  comparison.title = top.text("title", "heading of the table and the figure");
+
+  TableReader experiment = top.table("experiment", "the measured curves");
+  const std::string csv = experiment.text("file", "CSV file, beside this file");
+  Columns names;
+  names.test = experiment.text("test", "column that tells the tests apart");
+  names.author = experiment.text_or("author", names.test);
+  names.temperature = experiment.text("temperature", "column");
+  names.strain_rate = experiment.text("strain_rate", "column");
+  names.pressure = experiment.text_or("pressure", "");
+  names.plastic_strain = experiment.text("plastic_strain", "column");
+  names.stress = experiment.text("stress", "column of the true stress");
+  std::map<std::string, std::string> where;
+  if (auto filter = experiment.optional_table("where"))
+    for (const std::string& column : filter->keys()) where[column] = filter->text(column);
+
+  if (auto protocol = top.optional_table("protocol")) {
+    Protocol& p = comparison.protocol;
+    constexpr std::array<std::string_view, 2> directions{"compression", "tension"};
+    p.compression = protocol->choice("direction", directions, 0) == 0;
+    p.adiabatic_from = protocol->number_or("adiabatic_from", p.adiabatic_from, {Unit::per_s, positive, "strain rate"});
+    p.smallest_plastic_strain =
+        protocol->number_or("smallest_plastic_strain", p.smallest_plastic_strain, {Unit::one, non_negative, "plastic strain"});
+    p.strain_increment = protocol->number_or("strain_increment", p.strain_increment,
+                                             {Unit::one, {.lower = 0.0, .upper = 0.05, .lower_open = true}, "strain of a step"});
+  }
+  for (TableReader& model : top.tables("model"))
+    comparison.models.push_back({model.text("name", "for the table and the figure"), resolve_material(model, "material")});
+  if (comparison.models.empty()) top.problem("there is no [[model]] to compare with");
+  input.finish();
+
+  comparison.tests = read_tests(file.parent_path() / csv, names, where);
+  if (comparison.tests.empty())
+    throw InputError({{file.string(), 0, 0, "experiment.where", "no row of " + csv + " passes the filter"}});
+  return comparison;
+}
+
+Results compare(const Comparison& comparison) {
+  ProgressLine progress;
+  Results results;
+  for (const Model& model : comparison.models) {
+    results.emplace_back();
+    for (const Test& test : comparison.tests) {
+      progress.show(fmt::format("{}: {}", model.name, conditions(test)));
+      results.back().push_back(compare_one(test, model.file.material, comparison.protocol));
+    }
+  }
+  return results;
+}
+
+Overall overall(const std::vector<TestResult>& results) {
+  Overall all;
+  std::vector<double> errors;
+  double points = 0.0, tests = 0.0, squares = 0.0, mean = 0.0;
+  for (const TestResult& r : results) {
+    if (r.points == 0) continue;
+    ++all.tests;
+    all.points += r.points;
+    points += r.points * r.relative_rms * r.relative_rms;
+    squares += r.points * r.rms * r.rms;
+    mean += r.points * r.mean_relative;
+    tests += r.relative_rms * r.relative_rms;
+    errors.push_back(r.relative_rms);
+    all.within_10_percent += r.relative_rms <= 0.1;
+  }
+  if (errors.empty()) return all;
+  all.of_points = std::sqrt(points / all.points);
+  all.of_tests = std::sqrt(tests / all.tests);
+  all.rms = std::sqrt(squares / all.points);
+  all.mean = mean / all.points;
+  std::sort(errors.begin(), errors.end());
+  const std::size_t half = errors.size() / 2;
+  all.median_of_tests = errors.size() % 2 ? errors[half] : 0.5 * (errors[half - 1] + errors[half]);
+  return all;
+}
+
+int run_comparison(const CompareOptions& options) {
+  const Comparison comparison = read_comparison(options.file, options.overrides);
+  const auto begin = std::chrono::steady_clock::now();
+  const Results results = compare(comparison);
+  print_table(comparison, results, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  if (!options.output.empty()) {
+    write_results(comparison, results, options.output);
+    fmt::print("tests.csv and points.csv: {}\n", options.output.string());
+  }
+  for (const std::filesystem::path& path : options.figures) {
+    draw(figure_of(comparison, results), path);
+    fmt::print("figure: {}\n", path.string());
+  }
+  return done;
+}
+
+}  // namespace brisance::driver

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "models/dual.hpp"
+
+namespace brisance {
+
+/// The root between two bounds of an increasing function: Newton's method with the slope from duals, and bisection where
+/// Newton would leave the bracket. Without a root between the bounds the result is the bound where the function is nearest
+/// to zero. `scale` is a magnitude of x too small to matter.
+/// A lane that has converged computes the same step again and stays, so it does not feel its neighbours. The last step
+/// squares the remaining error, and gives the derivatives of the root when Real is a dual.
+template <class Real, class Function>
+Real increasing_root(const Function& f, const Real& lower, const Real& upper, Real x, double scale = 0.0) {
+  constexpr int most_steps = 100;
+  constexpr double last_but_one = 1e-9;  // relative; squared by the last step
+  constexpr double least_slope = 1e-300;
+  Real lowest = lower, highest = upper;
+  const auto newton_from = [&f](const Real& at, Real& value) {
+    const Dual<Real> y = f(Dual<Real>::variable(at));
+    value = y.value;
+    return Real(at - y.value / max(y.derivative[0], Real(least_slope)));
+  };
+  Real value;
+  for (int i = 0; i < most_steps; ++i) {
+    const Real newton = newton_from(x, value);
+    lowest = select(value < 0.0, x, lowest);
+    highest = select(value > 0.0, x, highest);
+    const Real middle = 0.5 * (lowest + highest);
+    const Real next = select(newton >= lowest, select(newton <= highest, newton, middle), middle);
+    const auto moves = abs(next - x) > last_but_one * (abs(x) + scale);
+    x = select(moves, next, x);
+    if (none(moves)) break;
+  }
+  const Real last = newton_from(x, value);
+  return min(max(last, lower), upper);
+}
+
+}  // namespace brisance

@@ -1,0 +1,587 @@
+#include "models/input/table_reader.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "models/input/units.hpp"
+
+namespace brisance {
+namespace {
+
+constexpr std::size_t most_elements_reported = 5;  // of one list
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+/// What a value is, for messages.
+std::string kind_of(const TomlNode& node) {
+  return std::visit(
+      Overloaded{[](const TomlTable&) { return std::string("a table"); }, [](const TomlList&) { return std::string("a list"); },
+                 [](const TomlDate&) { return std::string("a date or time"); },
+                 [](bool value) { return std::string(value ? "true" : "false"); },
+                 [](std::int64_t value) { return "the number " + std::to_string(value); },
+                 [](double value) { return "the number " + shortest_text(value); },
+                 [](const std::string& value) { return "the text " + in_quotes(value); }},
+      node.value);
+}
+
+std::string in_unit(double value, Unit unit) {
+  return shortest_text(value) + (unit.text == Unit::one.text ? "" : ' ' + std::string(unit.text));
+}
+
+/// The texts that may be written for a quantity, with its interval if that says more than "finite".
+std::string allowed_for(const Quantity& quantity) {
+  const bool bounded = std::isfinite(quantity.interval.lower) || std::isfinite(quantity.interval.upper);
+  return allowed_texts(quantity.unit) + (bounded ? ", " + describe(quantity.interval) : "");
+}
+
+std::string describe(Length length) {
+  const std::string noun = length.most == 1 ? " element" : " elements";
+  if (length.least == length.most) return std::to_string(length.least) + noun;
+  if (length.most == Length{}.most)
+    return "at least " + std::to_string(length.least) + (length.least == 1 ? " element" : " elements");
+  return std::to_string(length.least) + " to " + std::to_string(length.most) + noun;
+}
+
+/// A key within a table as messages and overrides name it.
+std::string joined(const std::string& path, std::string_view key) {
+  return path.empty() ? printable(key) : path + '.' + printable(key);
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto begin = text.find_first_not_of(" \t");
+  return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
+}
+
+/// Marks a value and all within it as coming from the command line.
+void mark_overridden(TomlNode& node) {
+  node.place = {Place::command_line, 0};
+  if (auto* const table = std::get_if<TomlTable>(&node.value))
+    for (TomlEntry& entry : table->entries) entry.key_place = node.place, mark_overridden(entry.node);
+  if (auto* const list = std::get_if<TomlList>(&node.value))
+    for (TomlNode& element : *list) mark_overridden(element);
+}
+
+/// The value of an override: TOML, or a plain text without quotes such as  20 us  or  green_naghdi .
+TomlNode override_value(std::string_view text) {
+  TomlNode result;
+  try {
+    TomlNode parsed = parse_toml("value = " + std::string(text), "");
+    auto& entries = std::get<TomlTable>(parsed.value).entries;
+    if (entries.size() != 1) throw InputError({{"", 0, 0, "", "one value is required"}});
+    result = std::move(entries.front().node);
+  } catch (const InputError& error) {
+    if (text.empty()) throw InputError({{"", 0, 0, "", "the value is missing after \"=\""}});
+    if (text.find_first_of("\"'[]{}\n") != std::string_view::npos)
+      throw InputError({{"", 0, 0, "", error.problems().front().what}});
+    result.value = std::string(text);
+  }
+  mark_overridden(result);
+  return result;
+}
+
+}  // namespace
+
+// --- Reporting --------------------------------------------------------------------------------------------------------
+
+void TableReader::report(Place place, const std::string& path, std::string what) {
+  if (place.line == Place::command_line)
+    owner_->problems_.push_back({"--set " + path, 0, 0, "", std::move(what)});
+  else
+    owner_->problems_.push_back({owner_->path_.string(), place.line, place.column, path, std::move(what)});
+}
+
+void TableReader::wrong_type(const TomlNode& node, const std::string& path, const std::string& required) {
+  report(node.place, path, "this is " + kind_of(node) + "; " + required + " is required");
+}
+
+void TableReader::problem(std::string_view key, std::string what) {
+  const TomlEntry* const entry = table_ ? table_->find(key) : nullptr;
+  report(entry ? entry->node.place : place_, path_of(key), std::move(what));
+}
+
+void TableReader::problem(std::string what) {
+  report(place_, path_, std::move(what));
+}
+
+void TableReader::add_problems(std::span<const Problem> problems) {
+  owner_->other_problems_.insert(owner_->other_problems_.end(), problems.begin(), problems.end());
+}
+
+void TableReader::ignore_rest() {
+  if (table_) table_->opened = false;
+}
+
+std::size_t TableReader::problem_count() const {
+  return owner_->problems_.size() + owner_->other_problems_.size();
+}
+
+std::string TableReader::path_of(std::string_view key) const {
+  return joined(path_, key);
+}
+
+const std::filesystem::path& TableReader::file() const {
+  return owner_->path_;
+}
+
+// --- Finding keys -----------------------------------------------------------------------------------------------------
+
+TomlEntry* TableReader::ask(std::string_view key) {
+  if (!table_) return nullptr;
+  if (std::find(table_->asked.begin(), table_->asked.end(), key) == table_->asked.end()) table_->asked.emplace_back(key);
+  return table_->find(key);
+}
+
+TomlNode* TableReader::read(std::string_view key) {
+  TomlEntry* const entry = ask(key);
+  if (!entry) return nullptr;
+  entry->read = true;
+  return &entry->node;
+}
+
+TomlNode* TableReader::require(std::string_view key, std::string_view meaning, const std::string& allowed) {
+  TomlNode* const node = read(key);
+  if (!node && table_)
+    report(place_, path_of(key), "missing" + (meaning.empty() ? "" : ": " + std::string(meaning)) + "; give " + allowed);
+  return node;
+}
+
+bool TableReader::has(std::string_view key) {
+  return ask(key) != nullptr;
+}
+
+bool TableReader::is_text(std::string_view key) {
+  const TomlEntry* const entry = ask(key);
+  return entry && std::holds_alternative<std::string>(entry->node.value);
+}
+
+bool TableReader::is_table(std::string_view key) {
+  const TomlEntry* const entry = ask(key);
+  return entry && std::holds_alternative<TomlTable>(entry->node.value);
+}
+
+bool TableReader::is_list(std::string_view key) {
+  const TomlEntry* const entry = ask(key);
+  return entry && std::holds_alternative<TomlList>(entry->node.value);
+}
+
+std::vector<std::string> TableReader::keys() {
+  std::vector<std::string> result;
+  if (table_)
+    for (const TomlEntry& entry : table_->entries) result.push_back(entry.key);
+  return result;
+}
+
+// --- Numbers ----------------------------------------------------------------------------------------------------------
+
+std::optional<double> TableReader::number_in(const TomlNode& node, const std::string& path, const Quantity& quantity) {
+  double value;
+  std::string written;
+  if (const auto* const real = std::get_if<double>(&node.value)) {
+    value = *real, written = in_unit(value, quantity.unit);
+  } else if (const auto* const integer = std::get_if<std::int64_t>(&node.value)) {
+    value = static_cast<double>(*integer), written = in_unit(value, quantity.unit);
+  } else if (const auto* const text = std::get_if<std::string>(&node.value)) {
+    try {
+      value = to_si(*text, quantity.unit), written = in_quotes(*text);
+    } catch (const UnitError& error) {
+      report(node.place, path, error.what());
+      return std::nullopt;
+    }
+  } else {
+    report(node.place, path,
+           "this is " + kind_of(node) + ", not " + quantity_of(quantity.unit) + "; give " + allowed_for(quantity));
+    return std::nullopt;
+  }
+  if (!std::isfinite(value)) {
+    report(node.place, path, shortest_text(value) + " is not a finite number; give " + allowed_for(quantity));
+    return std::nullopt;
+  }
+  if (!quantity.interval.contains(value)) {
+    const std::string unit = quantity.unit.text == Unit::one.text ? "" : " (in " + std::string(quantity.unit.text) + ')';
+    report(node.place, path, written + " is out of range; it must be " + describe(quantity.interval) + unit);
+    return std::nullopt;
+  }
+  return value;
+}
+
+double TableReader::number(std::string_view key, const Quantity& quantity) {
+  const TomlNode* const node = require(key, quantity.meaning, allowed_for(quantity));
+  return node ? number_in(*node, path_of(key), quantity).value_or(0.0) : 0.0;
+}
+
+std::optional<double> TableReader::optional_number(std::string_view key, const Quantity& quantity) {
+  const TomlNode* const node = read(key);
+  return node ? number_in(*node, path_of(key), quantity) : std::nullopt;
+}
+
+double TableReader::number_or(std::string_view key, double default_value, const Quantity& quantity) {
+  return optional_number(key, quantity).value_or(default_value);
+}
+
+int TableReader::integer_or(std::string_view key, int default_value, int lowest, int highest) {
+  const TomlNode* const node = read(key);
+  if (!node) return default_value;
+  const auto* const value = std::get_if<std::int64_t>(&node->value);
+  const std::string allowed = "a whole number between " + std::to_string(lowest) + " and " + std::to_string(highest);
+  if (!value) {
+    wrong_type(*node, path_of(key), allowed);
+    return default_value;
+  }
+  if (*value < lowest || *value > highest) {
+    report(node->place, path_of(key), std::to_string(*value) + " is out of range; it must be " + allowed);
+    return default_value;
+  }
+  return static_cast<int>(*value);
+}
+
+int TableReader::integer(std::string_view key, int lowest, int highest) {
+  require(key, "", "a whole number between " + std::to_string(lowest) + " and " + std::to_string(highest));
+  return integer_or(key, lowest, lowest, highest);
+}
+
+bool TableReader::flag_or(std::string_view key, bool default_value) {
+  const TomlNode* const node = read(key);
+  if (!node) return default_value;
+  const bool* const value = std::get_if<bool>(&node->value);
+  if (!value) wrong_type(*node, path_of(key), "true or false");
+  return value ? *value : default_value;
+}
+
+bool TableReader::flag(std::string_view key) {
+  require(key, "", "true or false");
+  return flag_or(key, false);
+}
+
+// --- Texts ------------------------------------------------------------------------------------------------------------
+
+std::optional<std::string> TableReader::optional_text(std::string_view key) {
+  const TomlNode* const node = read(key);
+  if (!node) return std::nullopt;
+  const auto* const value = std::get_if<std::string>(&node->value);
+  if (!value) {
+    wrong_type(*node, path_of(key), "a text in quotes");
+    return std::nullopt;
+  }
+  if (value->find_first_not_of(" \t\r\n") == std::string::npos) {
+    report(node->place, path_of(key), "the text is empty");
+    return std::nullopt;
+  }
+  return *value;
+}
+
+std::string TableReader::text(std::string_view key, std::string_view meaning) {
+  require(key, meaning, "a text in quotes");
+  return optional_text(key).value_or("");
+}
+
+std::string TableReader::text_or(std::string_view key, std::string_view default_value) {
+  return optional_text(key).value_or(std::string(default_value));
+}
+
+std::size_t TableReader::choice(std::string_view key, std::span<const std::string_view> names,
+                                std::optional<std::size_t> default_value) {
+  const std::string allowed = (names.size() == 1 ? "" : "one of ") + listed(names);
+  const TomlNode* const node = default_value ? read(key) : require(key, "", allowed);
+  const std::size_t otherwise = default_value.value_or(0);
+  if (!node) return otherwise;
+  const auto* const value = std::get_if<std::string>(&node->value);
+  if (!value) {
+    wrong_type(*node, path_of(key), allowed + " (in quotes)");
+    return otherwise;
+  }
+  const auto found = std::find(names.begin(), names.end(), *value);
+  if (found == names.end()) {
+    report(node->place, path_of(key), in_quotes(*value) + " is unknown; it must be " + allowed + did_you_mean(*value, names));
+    return otherwise;
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+// --- Lists ------------------------------------------------------------------------------------------------------------
+
+const TomlList* TableReader::list_in(const TomlNode& node, const std::string& path, Length length,
+                                     const std::string& elements) {
+  const auto* const list = std::get_if<TomlList>(&node.value);
+  const std::string allowed = "a list of " + describe(length) + ", each " + elements;
+  if (!list) {
+    wrong_type(node, path, allowed);
+    return nullptr;
+  }
+  if (list->size() >= length.least && list->size() <= length.most) return list;
+  report(node.place, path,
+         (list->empty() ? std::string("the list is empty")
+                        : "the list has " + std::to_string(list->size()) + (list->size() == 1 ? " element" : " elements")) +
+             "; give " + allowed);
+  return nullptr;
+}
+
+std::vector<double> TableReader::numbers_in(const TomlNode& node, const std::string& path, const Quantity& quantity,
+                                            Length length) {
+  const TomlList* const list = list_in(node, path, length, allowed_for(quantity));
+  std::vector<double> result(list ? list->size() : length.least, 0.0);
+  std::size_t reported = 0;
+  for (std::size_t i = 0; list && i < list->size() && reported < most_elements_reported; ++i) {
+    const auto value = number_in((*list)[i], joined(path, std::to_string(i)), quantity);
+    if (value)
+      result[i] = *value;
+    else
+      ++reported;
+  }
+  return result;
+}
+
+std::vector<double> TableReader::numbers(std::string_view key, const Quantity& quantity, Length length) {
+  const TomlNode* const node =
+      require(key, quantity.meaning, "a list of " + describe(length) + ", each " + allowed_for(quantity));
+  return node ? numbers_in(*node, path_of(key), quantity, length) : std::vector<double>(length.least, 0.0);
+}
+
+std::optional<std::vector<double>> TableReader::optional_numbers(std::string_view key, const Quantity& quantity,
+                                                                 Length length) {
+  const TomlNode* const node = read(key);
+  if (!node) return std::nullopt;
+  return numbers_in(*node, path_of(key), quantity, length);
+}
+
+std::vector<std::vector<double>> TableReader::rows(std::string_view key, const Quantity& quantity, Length rows,
+                                                   std::size_t columns) {
+  const std::string elements = "a list of " + describe(exactly(columns));
+  const TomlNode* const node = require(key, quantity.meaning, "a list of " + describe(rows) + ", each " + elements);
+  const TomlList* const list = node ? list_in(*node, path_of(key), rows, elements) : nullptr;
+  if (!list) return std::vector(rows.least, std::vector<double>(columns, 0.0));
+  std::vector<std::vector<double>> result;
+  for (std::size_t i = 0; i < list->size(); ++i)
+    result.push_back(numbers_in((*list)[i], joined(path_of(key), std::to_string(i)), quantity, exactly(columns)));
+  for (auto& row : result) row.resize(columns, 0.0);
+  return result;
+}
+
+std::vector<std::string> TableReader::texts_in(const TomlNode& node, const std::string& path, Length length) {
+  const TomlList* const list = list_in(node, path, length, "a text in quotes");
+  std::vector<std::string> result;
+  std::size_t reported = 0;
+  for (std::size_t i = 0; list && i < list->size() && reported < most_elements_reported; ++i) {
+    const auto* const value = std::get_if<std::string>(&(*list)[i].value);
+    if (!value) wrong_type((*list)[i], joined(path, std::to_string(i)), "a text in quotes"), ++reported;
+    result.push_back(value ? *value : "");
+  }
+  return result;
+}
+
+std::vector<std::string> TableReader::texts(std::string_view key, Length length) {
+  const TomlNode* const node = require(key, "", "a list of " + describe(length) + ", each a text in quotes");
+  return node ? texts_in(*node, path_of(key), length) : std::vector<std::string>(length.least);
+}
+
+std::optional<std::vector<std::string>> TableReader::optional_texts(std::string_view key, Length length) {
+  const TomlNode* const node = read(key);
+  if (!node) return std::nullopt;
+  return texts_in(*node, path_of(key), length);
+}
+
+// --- Tables -----------------------------------------------------------------------------------------------------------
+
+TableReader TableReader::open(TomlNode& node, std::string path) {
+  auto* const table = std::get_if<TomlTable>(&node.value);
+  if (table) table->opened = true;
+  return TableReader(owner_, table, std::move(path), node.place);
+}
+
+std::optional<TableReader> TableReader::optional_table(std::string_view key) {
+  TomlNode* const node = read(key);
+  if (!node) return std::nullopt;
+  if (!std::holds_alternative<TomlTable>(node->value)) wrong_type(*node, path_of(key), "a table [" + path_of(key) + ']');
+  return open(*node, path_of(key));
+}
+
+TableReader TableReader::table(std::string_view key, std::string_view meaning) {
+  require(key, meaning, "a table [" + path_of(key) + ']');
+  const auto found = optional_table(key);
+  return found ? *found : TableReader(owner_, nullptr, path_of(key), place_);
+}
+
+std::vector<TableReader> TableReader::tables(std::string_view key) {
+  std::vector<TableReader> result;
+  TomlNode* const node = read(key);
+  if (!node) return result;
+  const std::string required = "a list of tables, each begun by [[" + path_of(key) + "]],";
+  auto* const list = std::get_if<TomlList>(&node->value);
+  if (!list) wrong_type(*node, path_of(key), required);
+  for (std::size_t i = 0; list && i < list->size(); ++i) {
+    const std::string path = joined(path_of(key), std::to_string(i));
+    if (std::holds_alternative<TomlTable>((*list)[i].value)) {
+      result.push_back(open((*list)[i], path));
+    } else {
+      wrong_type((*list)[i], path, "a table");
+      if (result.size() + most_elements_reported <= i) break;
+    }
+  }
+  return result;
+}
+
+Table TableReader::piecewise(std::string_view key, const Quantity& value, std::string_view abscissa_name,
+                             const Quantity& abscissa) {
+  Table result;
+  result.size = 1;
+  if (!is_table(key)) {
+    const std::string table = " or a table { " + std::string(abscissa_name) + " = [...], value = [...] }";
+    TomlNode* const node = require(key, value.meaning, allowed_for(value) + table);
+    if (node && std::holds_alternative<TomlList>(node->value))
+      wrong_type(*node, path_of(key), quantity_of(value.unit) + table);
+    else if (node)
+      result.y[0] = number_in(*node, path_of(key), value).value_or(0.0);
+    return result;
+  }
+  TableReader knots = table(key);
+  const std::size_t before = problem_count();
+  const Length length{1, Table::capacity};
+  const std::vector<double> x = knots.numbers(abscissa_name, abscissa, length), y = knots.numbers("value", value, length);
+  if (problem_count() > before) return result;
+  if (x.size() != y.size()) {
+    knots.problem("value", "the list has " + std::to_string(y.size()) + " elements; as many as in " +
+                               std::string(abscissa_name) + " are required, " + std::to_string(x.size()));
+    return result;
+  }
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    if (x[i] > x[i - 1]) continue;
+    knots.problem(abscissa_name, "element " + std::to_string(i) + " is " + shortest_text(x[i]) + " after " +
+                                     shortest_text(x[i - 1]) + "; each element must be larger than the one before");
+    return result;
+  }
+  result.size = static_cast<int>(x.size());
+  std::copy(x.begin(), x.end(), result.x.begin());
+  std::copy(y.begin(), y.end(), result.y.begin());
+  return result;
+}
+
+// --- The file ---------------------------------------------------------------------------------------------------------
+
+InputFile InputFile::load(const std::filesystem::path& path) {
+  return from_text(read_text_file(path), path);
+}
+
+InputFile InputFile::from_text(std::string_view text, std::filesystem::path name) {
+  TomlNode root = parse_toml(text, name.string());
+  root.place = {};
+  return InputFile(std::move(root), std::move(name));
+}
+
+TableReader InputFile::top() {
+  auto& table = std::get<TomlTable>(root_.value);
+  table.opened = true;
+  return TableReader(this, &table, "", root_.place);
+}
+
+void InputFile::report_override(std::string_view key, std::string what) {
+  problems_.push_back({"--set " + printable(key), 0, 0, "", std::move(what)});
+}
+
+void InputFile::set(std::string_view assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string_view::npos) return report_override(assignment, "the value is missing; key=value is required");
+  const std::string_view path = trimmed(assignment.substr(0, equals));
+  TomlNode value;
+  try {
+    value = override_value(trimmed(assignment.substr(equals + 1)));
+  } catch (const InputError& error) {
+    return report_override(path, error.problems().front().what);
+  }
+
+  TomlNode* node = &root_;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    const std::string_view key = path.substr(begin, end - begin);
+    const std::string_view so_far = path.substr(0, begin == 0 ? 0 : begin - 1);
+    if (key.empty()) return report_override(path, "the key has an empty part; table.key or list.0.key is required");
+    if (auto* const table = std::get_if<TomlTable>(&node->value)) {
+      TomlEntry* entry = table->find(key);
+      if (!entry) {
+        constexpr Place here{Place::command_line, 0};
+        table->entries.push_back({std::string(key), here, TomlNode{TomlTable{}, here}, false});
+        entry = &table->entries.back();
+      }
+      if (end == path.size()) entry->key_place = {Place::command_line, 0};
+      node = &entry->node;
+    } else if (auto* const list = std::get_if<TomlList>(&node->value)) {
+      std::size_t index = 0;
+      const auto [last, error] = std::from_chars(key.data(), key.data() + key.size(), index);
+      if (error != std::errc() || last != key.data() + key.size() || index >= list->size())
+        return report_override(path, std::string(so_far) + " is a list of " + std::to_string(list->size()) +
+                                         " elements, counted from 0; it has no element " + in_quotes(key));
+      node = &(*list)[index];
+    } else if (std::holds_alternative<std::string>(node->value) && !so_far.empty()) {
+      pending_.push_back({std::string(so_far), std::string(path.substr(begin)) + std::string(assignment.substr(equals))});
+      return;
+    } else {
+      return report_override(path, std::string(so_far) + " is " + kind_of(*node) + ", which has no parts");
+    }
+    begin = end + 1;
+  }
+  *node = std::move(value);
+}
+
+std::vector<std::string> TableReader::take_overrides(std::string_view key) {
+  std::vector<std::string> result;
+  const std::string path = path_of(key);
+  std::erase_if(owner_->pending_, [&](const InputFile::Override& pending) {
+    if (pending.path == path) result.push_back(pending.assignment);
+    return pending.path == path;
+  });
+  return result;
+}
+
+void InputFile::report_unread(const TomlTable& table, const std::string& path) {
+  const std::vector<std::string_view> known(table.asked.begin(), table.asked.end());
+  for (const TomlEntry& entry : table.entries) {
+    const std::string entry_path = joined(path, entry.key);
+    if (!entry.read && table.opened) {
+      std::string what = "unknown key";
+      if (const std::string guess = did_you_mean(entry.key, known); !guess.empty())
+        what += guess;
+      else
+        what += known.empty() ? "; no keys are known here" : "; the keys known here are " + listed(known);
+      if (entry.key_place.line == Place::command_line)
+        report_override(entry_path, what);
+      else
+        problems_.push_back({path_.string(), entry.key_place.line, entry.key_place.column, entry_path, what});
+    } else if (const auto* const inner = std::get_if<TomlTable>(&entry.node.value)) {
+      report_unread(*inner, entry_path);
+    } else if (const auto* const list = std::get_if<TomlList>(&entry.node.value)) {
+      for (std::size_t i = 0; i < list->size(); ++i)
+        if (const auto* const element = std::get_if<TomlTable>(&(*list)[i].value))
+          report_unread(*element, joined(entry_path, std::to_string(i)));
+    }
+  }
+}
+
+std::vector<Problem> InputFile::problems() {
+  report_unread(std::get<TomlTable>(root_.value), "");
+  for (const Override& pending : pending_)
+    report_override(pending.path + '.' + pending.assignment.substr(0, pending.assignment.find('=')),
+                    pending.path + " is a text, which has no parts");
+  pending_.clear();
+  // In the order of the file; what has no line comes first, the command line last.
+  std::stable_sort(problems_.begin(), problems_.end(), [](const Problem& a, const Problem& b) {
+    const auto order = [](const Problem& p) { return std::tuple(p.file.starts_with("--set "), p.line, p.column); };
+    return order(a) < order(b);
+  });
+  std::vector<Problem> all = std::exchange(problems_, {});
+  all.insert(all.end(), other_problems_.begin(), other_problems_.end());
+  other_problems_.clear();
+  return all;
+}
+
+void InputFile::finish() {
+  std::vector<Problem> all = problems();
+  if (!all.empty()) throw InputError(std::move(all));
+}
+
+}  // namespace brisance

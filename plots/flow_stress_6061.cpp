@@ -1,0 +1,121 @@
+// 6061-T6 against the 95 measured curves of data/experiments, through the same comparison that `pointdriver compare` makes.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "driver/compare.hpp"
+#include "gallery.hpp"
+#include "runs.hpp"
+
+namespace brisance::plots {
+namespace {
+
+using driver::Comparison;
+using driver::Curve;
+using driver::Mark;
+using driver::Panel;
+using driver::Test;
+
+/// Of the tests that are wanted, those with the most points in each class of temperature or rate.
+template <class Wanted, class Class>
+std::vector<std::size_t> representatives(const std::vector<Test>& tests, Wanted&& wanted, Class&& class_of) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    if (!wanted(tests[t])) continue;
+    const auto same = std::find_if(chosen.begin(), chosen.end(), [&](std::size_t c) { return class_of(tests[c]) == class_of(tests[t]); });
+    if (same == chosen.end())
+      chosen.push_back(t);
+    else if (tests[*same].stress.size() < tests[t].stress.size())
+      *same = t;
+  }
+  std::sort(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) { return class_of(tests[a]) < class_of(tests[b]); });
+  return chosen;
+}
+
+template <class Name>
+Panel curves_of(const Comparison& comparison, const driver::Results& results, std::string title, const std::vector<std::size_t>& chosen,
+                Name&& name) {
+  Panel panel{.title = std::move(title), .x_label = "plastic strain", .y_label = "true stress (MPa)"};
+  panel.legend = "outside right";
+  panel.y_range = {0.0, 620.0};
+  int colour = 0;
+  for (const std::size_t t : chosen) {
+    const Test& test = comparison.tests[t];
+    panel.curves.push_back(curve(name(test), test.plastic_strain, test.stress, 1.0, 1e-6, Mark::points, colour));
+    for (std::size_t m = 0; m < results.size(); ++m)
+      panel.curves.push_back(curve("", results[m][t].plastic_strain, results[m][t].stress, 1.0, 1e-6, m == 0 ? Mark::line : Mark::dashed, colour, 150));
+    ++colour;
+  }
+  return panel;
+}
+
+/// Every measured point against the computed one.
+Panel parity(const Comparison& comparison, const driver::Results& results) {
+  Panel panel{.title = "every measured point", .x_label = "measured stress (MPa)", .y_label = "computed stress (MPa)"};
+  panel.x_range = panel.y_range = {0.0, 650.0};
+  panel.legend = "bottom right";
+  for (std::size_t m = 0; m < results.size(); ++m) {
+    Curve dots{comparison.models[m].name, {}, {}, Mark::points, static_cast<int>(m)};
+    for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
+      const Test& test = comparison.tests[t];
+      if (results[m][t].points == 0) continue;
+      for (std::size_t i = 0; i < test.stress.size(); ++i) {
+        if (test.plastic_strain[i] < comparison.protocol.smallest_plastic_strain || !(test.stress[i] > 0.0)) continue;
+        dots.x.push_back(1e-6 * test.stress[i]);
+        dots.y.push_back(1e-6 * interpolate(results[m][t].plastic_strain, results[m][t].stress, test.plastic_strain[i]));
+      }
+    }
+    panel.curves.push_back(std::move(dots));
+  }
+  panel.curves.push_back({"equal", {0.0, 650.0}, {0.0, 650.0}, Mark::line, 6});
+  panel.curves.push_back({"± 10 %", {0.0, 650.0}, {0.0, 715.0}, Mark::dashed, 6});
+  panel.curves.push_back({"", {0.0, 650.0}, {0.0, 585.0}, Mark::dashed, 6});
+  return panel;
+}
+
+Panel errors(const Comparison& comparison, const driver::Results& results) {
+  Panel panel{.title = "error of each test, + where the model is too strong", .x_label = "temperature (K)",
+              .y_label = "mean relative error (%)"};
+  panel.legend = "top left";
+  for (std::size_t m = 0; m < results.size(); ++m) {
+    Curve dots{comparison.models[m].name, {}, {}, Mark::points, static_cast<int>(m)};
+    for (std::size_t t = 0; t < comparison.tests.size(); ++t)
+      if (results[m][t].points > 0)
+        dots.x.push_back(comparison.tests[t].temperature), dots.y.push_back(100.0 * results[m][t].mean_relative);
+    panel.curves.push_back(std::move(dots));
+  }
+  panel.curves.push_back({"", {50.0, 680.0}, {0.0, 0.0}, Mark::line, 6});
+  panel.x_range = {50.0, 680.0};
+  return panel;
+}
+
+}  // namespace
+
+Picture flow_stress_6061() {
+  const Comparison comparison = driver::read_comparison(data_folder() / "cases" / "point_6061_t6.toml");
+  const driver::Results results = driver::compare(comparison);
+  Picture picture;
+  picture.figure = {.title = "6061-T6 aluminium: " + std::to_string(comparison.tests.size()) +
+                             " measured curves (points), Johnson-Cook (solid), threshold stress (dashed)",
+                    .panels = {}, .columns = 2, .panel_width = 640, .panel_height = 440};
+  const auto slow = [](const Test& t) { return t.strain_rate < 0.1 && t.pressure == 0.0 && t.stress.size() > 5; };
+  const auto fast = [](const Test& t) { return t.strain_rate >= 900.0 && t.pressure == 0.0 && t.stress.size() > 5; };
+  const auto hundred = [](const Test& t) { return std::round(t.temperature / 75.0); };
+  const auto name = [](const Test& t) { return fmt::format("{:g} K, {:g} /s", t.temperature, t.strain_rate); };
+  picture.figure.panels = {curves_of(comparison, results, "slow tests", representatives(comparison.tests, slow, hundred), name),
+                           curves_of(comparison, results, "fast tests", representatives(comparison.tests, fast, hundred), name),
+                           parity(comparison, results), errors(comparison, results)};
+  for (std::size_t m = 0; m < results.size(); ++m) {
+    const driver::Overall all = driver::overall(results[m]);
+    const std::string& model = comparison.models[m].name;
+    picture.checks.push_back({fmt::format("{}: curves compared", model), "95 less those without flow", static_cast<double>(all.tests), {}});
+    picture.checks.push_back({fmt::format("{}: median error of the curves", model), "95 curves, Banerjee & Bhawalkar", 100.0 * all.median_of_tests, {}, "%"});
+    picture.checks.push_back({fmt::format("{}: RMS error of all points", model), "95 curves, Banerjee & Bhawalkar", 100.0 * all.of_points, {}, "%"});
+    picture.checks.push_back({fmt::format("{}: mean error of all points", model), "95 curves, Banerjee & Bhawalkar", 100.0 * all.mean, {}, "%"});
+  }
+  return picture;
+}
+
+}  // namespace brisance::plots

@@ -1,0 +1,271 @@
+// Nanoseconds per point and update, on one core, everything in the update included: as doubles, in lanes, and in lanes with a
+// material whose laws are fixed at compile time. Prints the environment beside the numbers, since they mean little without it.
+//   bench [--json FILE]
+
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "models/phases.hpp"
+#include "models/update.hpp"
+
+namespace brisance {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Seconds of the fastest of `repeats` calls: what the machine can do when nothing disturbs it.
+template <class F>
+double fastest(int repeats, F&& f) {
+  double best = 1e300;
+  for (int i = 0; i < repeats; ++i) {
+    const auto start = Clock::now();
+    f();
+    best = std::min(best, std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  return best;
+}
+
+/// A material whose laws the compiler knows.
+template <class Flow, class Eos, class Shear, class Surface, class DamageLaw>
+struct StaticMaterial {
+  double density;
+  ObjectiveRate objective_rate;
+  Eos equation_of_state;
+  Shear shear_modulus;
+  melting::Constant melting;
+  specific_heat::Constant specific_heat;
+  Flow flow_stress;
+  Surface yield;
+  DamageLaw damage;
+  std::optional<Viscoelastic> viscoelastic;
+  std::optional<Porosity> porosity;
+  std::vector<Stability> stability;
+  std::vector<Failure> failure;
+  Heating heating;
+  ArtificialViscosity artificial_viscosity;
+};
+/// The damage of a material that has none.
+using NoDamage = std::optional<Damage>;
+
+template <class Flow, class Eos, class Shear, class Surface, class DamageLaw>
+Material dynamic(const StaticMaterial<Flow, Eos, Shear, Surface, DamageLaw>& m) {
+  Material material;
+  material.name = "benchmark", material.density = m.density;
+  material.equation_of_state = m.equation_of_state, material.shear_modulus = m.shear_modulus;
+  material.melting = m.melting, material.specific_heat = m.specific_heat;
+  material.flow_stress = m.flow_stress, material.yield = m.yield;
+  if constexpr (!std::is_same_v<DamageLaw, NoDamage>) material.damage = m.damage;
+  material.porosity = m.porosity, material.stability = m.stability, material.failure = m.failure;
+  material.heating = m.heating, material.artificial_viscosity = m.artificial_viscosity;
+  return material;
+}
+
+Heating plastic_heating() {
+  Heating heating{};
+  heating.taylor_quinney.size = 1, heating.taylor_quinney.y[0] = 0.9;
+  heating.viscous = true;
+  return heating;
+}
+
+/// Points in the middle of plastic deformation: sheared and compressed to and fro, 25 steps each way, never the same state.
+template <class Real>
+class Work {
+ public:
+  static constexpr int batches = 64;  // 4096 points: their states stay in the cache, so arithmetic is what is measured
+  static constexpr double time_step = 2e-7;
+
+  explicit Work(const Material& material) : data_(std::make_unique<std::array<Batch<Real>, batches>>()) {
+    const State<double> start = initial_state(material, 300.0);
+    for (int b = 0; b < batches; ++b)
+      for (int k = 0; k < Batch<Real>::capacity; ++k) {
+        Point<Real>& p = (*data_)[b].points[k];
+        p.state.density = start.density, p.state.energy = start.energy, p.state.temperature = start.temperature;
+        p.state.shear_modulus = start.shear_modulus;
+        p.state.porosity = Real(0.005);
+        p.cell_size = Real(1e-4);
+        const double vary = 1.0 + 0.3 * ((b * 7 + k * 13) % 17) / 17.0;
+        p.velocity_gradient.xx = Real(-4e3 * vary), p.velocity_gradient.yy = Real(2.5e3 * vary);
+        p.velocity_gradient.xy = Real(2e3 * vary), p.velocity_gradient.zx = Real(-1e3 * vary);
+      }
+  }
+  template <class Step>
+  double nanoseconds_per_point(Step&& step) {
+    constexpr int steps = 50;
+    const auto loop = [&] {
+      for (int i = 0; i < steps; ++i) {
+        if (i == steps / 2) turn();
+        for (Batch<Real>& batch : *data_) step(batch, time_step);
+      }
+      turn();
+    };
+    loop();
+    return 1e9 * fastest(9, loop) / (steps * batches * 64.0);
+  }
+  /// The part of the points that flow, and whether any is in trouble.
+  double plastic_part() const {
+    int plastic = 0, points = 0;
+    for (const Batch<Real>& batch : *data_)
+      for (const Point<Real>& p : batch)
+        for (int i = 0; i < width_of<Real>; ++i) {
+          plastic += lane(p.plastic_strain_increment, i) > 0.0, ++points;
+          if (lane(p.trouble, i) != 0.0) std::fprintf(stderr, "bench: %s\n", describe(Trouble(int(lane(p.trouble, i)))).data());
+        }
+    return double(plastic) / points;
+  }
+
+ private:
+  void turn() {
+    for (Batch<Real>& batch : *data_)
+      for (Point<Real>& p : batch) p.velocity_gradient = Real(-1.0) * p.velocity_gradient;
+  }
+  std::unique_ptr<std::array<Batch<Real>, batches>> data_;
+};
+
+double fused_multiply_add_rate() {  // Gflop/s of one core
+  constexpr int chains = 12, length = 2'000'000;
+  Lanes sums[chains];
+  for (int i = 0; i < chains; ++i) sums[i] = Lanes(1.0 + i);
+  simd::Register factor = simd::Register{} + 0.999999, term = simd::Register{} + 1e-6;
+  const double seconds = fastest(5, [&] {
+    for (int k = 0; k < length; ++k)
+      for (auto& s : sums)
+        for (auto& part : s.part) part = simd::fma(part, factor, term);
+  });
+  volatile double keep = 0.0;
+  for (auto& s : sums) keep = keep + s[0];
+  return 2.0 * chains * Lanes::width * length / seconds * 1e-9;
+}
+
+double triad_bandwidth() {  // GB/s of one core
+  constexpr std::size_t n = 8'000'000;
+  std::vector<double> a(n, 0.0), b(n, 1.0), c(n, 2.0);
+  const double seconds = fastest(5, [&] {
+    for (std::size_t i = 0; i < n; ++i) a[i] = b[i] + 0.5 * c[i];
+  });
+  volatile double keep = a[n / 2];
+  (void)keep;
+  return 3.0 * 8.0 * n / seconds * 1e-9;
+}
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+struct Row {
+  std::string material;
+  double doubles, lanes, fixed, plastic;
+};
+
+template <class M>
+Row measure(const std::string& name, const M& fixed) {
+  const Material material = dynamic(fixed);
+  Row row{name, 0, 0, 0, 0};
+  Work<double> doubles(material);
+  row.doubles = doubles.nanoseconds_per_point([&](Batch<double>& b, double dt) { update(material, b, dt); });
+  Work<Lanes> lanes(material);
+  row.lanes = lanes.nanoseconds_per_point([&](Batch<Lanes>& b, double dt) { update(material, b, dt); });
+  row.plastic = lanes.plastic_part();
+  Work<Lanes> composed(material);
+  row.fixed = composed.nanoseconds_per_point([&](Batch<Lanes>& b, double dt) { phases::advance(fixed, b, dt); });
+  return row;
+}
+
+int run(const char* json) {
+  const double flops = fused_multiply_add_rate(), bandwidth = triad_bandwidth();
+  std::printf("%s, %d-bit vectors, GCC %s\n", processor().c_str(), 64 * simd::register_width, __VERSION__);
+  std::printf("one core: %.0f Gflop/s fused multiply-add, %.1f GB/s triad\n\n", flops, bandwidth);
+  std::printf("%-42s %10s %10s %10s %8s %8s\n", "ns per point and update", "double", "lanes", "static", "speed-up", "plastic");
+
+  const flow_stress::JohnsonCook steel{792e6, 510e6, 0.26, 0.014, 1.03, 1.0, 298.0};
+  const damage::JohnsonCook steel_damage{0.05, 3.44, -2.12, 0.002, 0.61, 1.0, 298.0, 0.01};
+  const flow_stress::MechanicalThresholdStress hy100{
+      .athermal_stress = 40e6, .k_over_b3 = 0.905e6, .reference_shear_modulus = 71.46e9, .intrinsic_stress = 1341e6,
+      .intrinsic_barrier = 1.161, .intrinsic_rate = 1e13, .intrinsic_p = 0.5, .intrinsic_q = 1.5, .evolving_barrier = 1.6,
+      .evolving_rate = 1e7, .evolving_p = 2.0 / 3.0, .evolving_q = 1.0, .a0 = 6.0e9, .a1 = 0.0, .a2 = 0.0, .a3 = 2.0758e6,
+      .stage_four_hardening = 200e6, .hardening_form = {}, .alpha = 3.0, .saturation_stress = 822e6,
+      .saturation_barrier = 0.112, .saturation_rate = 1e7};
+  const flow_stress::PrestonTonksWallace copper{.theta = 0.025, .p = 2.0, .s0 = 0.0085, .s_inf = 0.00055, .kappa = 0.11,
+                                                .gamma = 1e-5, .y0 = 0.0001, .y_inf = 0.0001, .y1 = 0.094, .y2 = 0.575,
+                                                .beta = 0.25, .atomic_mass = 63.546};
+  using equation_of_state::MieGruneisenTemperature;
+  const std::vector<Row> rows{
+      measure("Johnson-Cook, Mie-Grueneisen, JC damage",
+              StaticMaterial<flow_stress::JohnsonCook, MieGruneisenTemperature, shear_modulus::Constant, yield::VonMises,
+                             damage::JohnsonCook>{7830.0,
+                                                  {},
+                                                  {7830.0, 4578.0, 1.33, 1.67, 477.0, 294.0},
+                                                  {80e9},
+                                                  {1793.0},
+                                                  {477.0},
+                                                  steel,
+                                                  {},
+                                                  steel_damage,
+                                                  {},
+                                                  {},
+                                                  {},
+                                                  {},
+                                                  plastic_heating(),
+                                                  {}}),
+      measure("MTS, Mie-Grueneisen, porous (GTN)",
+              StaticMaterial<flow_stress::MechanicalThresholdStress, MieGruneisenTemperature, shear_modulus::VarshniChenGray,
+                             yield::GursonTvergaardNeedleman, NoDamage>{7860.0,
+                                                                        {},
+                                                                        {7860.0, 4578.0, 1.33, 1.67, 477.0, 294.0},
+                                                                        {71.46e9, 2.9e9, 204.0},
+                                                                        {1793.0},
+                                                                        {477.0},
+                                                                        hy100,
+                                                                        {1.5, 1.0, 2.25, 0.05, 4.0, {}},
+                                                                        {},
+                                                                        {},
+                                                                        porosity::ChuNeedleman{0.1, 0.3, 0.1, false},
+                                                                        {},
+                                                                        {},
+                                                                        plastic_heating(),
+                                                                        {}}),
+      measure("Preston-Tonks-Wallace, Mie-Grueneisen",
+              StaticMaterial<flow_stress::PrestonTonksWallace, MieGruneisenTemperature, shear_modulus::Constant,
+                             yield::VonMises, NoDamage>{8930.0,
+                                                        {},
+                                                        {8930.0, 3940.0, 1.489, 2.02, 383.0, 294.0},
+                                                        {47.7e9},
+                                                        {1356.0},
+                                                        {383.0},
+                                                        copper,
+                                                        {},
+                                                        {},
+                                                        {},
+                                                        {},
+                                                        {},
+                                                        {},
+                                                        plastic_heating(),
+                                                        {}})};
+  for (const Row& r : rows)
+    std::printf("%-42s %10.1f %10.1f %10.1f %7.1fx %7.0f%%\n", r.material.c_str(), r.doubles, r.lanes, r.fixed, r.doubles / r.lanes,
+                100.0 * r.plastic);
+  if (json) {
+    std::ofstream out(json);
+    out << "{\"processor\": \"" << processor() << "\", \"vector_bits\": " << 64 * simd::register_width << ", \"compiler\": \"GCC "
+        << __VERSION__ << "\", \"gflops\": " << flops << ", \"triad_gb_per_s\": " << bandwidth << ", \"ns_per_point\": [";
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      out << (i ? ", " : "") << "{\"material\": \"" << rows[i].material << "\", \"double\": " << rows[i].doubles
+          << ", \"lanes\": " << rows[i].lanes << ", \"static\": " << rows[i].fixed << "}";
+    out << "]}\n";
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace brisance
+
+int main(int argc, char** argv) {
+  return brisance::run(argc > 2 && std::strcmp(argv[1], "--json") == 0 ? argv[2] : nullptr);
+}
