@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "driver/calibrate.hpp"
+#include "driver/check.hpp"
 #include "driver/compare.hpp"
 #include "driver/laws.hpp"
 #include "driver/run_command.hpp"
@@ -49,11 +51,24 @@ int run_command_line(int argc, char** argv) {
   CLI::App* compare_command = app.add_subcommand("compare", "Measured stress-strain curves against material models");
   compare_command->add_option("CASE", comparison.file, "comparison file (TOML)")->required();
   compare_command->add_option("--set", comparison.overrides, "replace a value: key.0.key=value")->allow_extra_args(false);
-  compare_command->add_option("-o,--output", comparison.output, "directory for tests.csv and points.csv");
+  compare_command->add_option("-o,--output", comparison.output, "NAME.csv of the errors of each test; NAME_points.csv goes beside it");
   compare_command->add_option("--plot", comparison.figures, "figure, .png or .svg; may be given twice")->allow_extra_args(false);
   compare_command->callback([&] { code = run_comparison(comparison); });
 
   app.add_subcommand("list", "All laws, folder by folder")->callback([&] { code = list(); });
+
+  CalibrateOptions calibration;
+  CLI::App* calibrate_command = app.add_subcommand("calibrate", "Parameters of a material from measured flow curves");
+  calibrate_command->add_option("FIT", calibration.file, "calibration file (TOML)")->required();
+  calibrate_command->add_option("--set", calibration.overrides, "replace a value: key.0.key=value")->allow_extra_args(false);
+  calibrate_command->add_option("-o,--output", calibration.output, "material file with the parameters found");
+  calibrate_command->add_option("--plot", calibration.figures, "figure, .png or .svg; may be given twice")->allow_extra_args(false);
+  calibrate_command->callback([&] { code = run_calibration(calibration); });
+
+  std::vector<std::filesystem::path> materials;
+  CLI::App* check_command = app.add_subcommand("check", "Material files against the analytical limits of their laws");
+  check_command->add_option("FILE", materials, "material files (default: all that come with the program)");
+  check_command->callback([&] { code = run_check(materials); });
 
   std::string law;
   CLI::App* describe_command = app.add_subcommand("describe", "Equation, source and parameters of a law");

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 
 #include "driver/commands.hpp"
 #include "driver/follow.hpp"
@@ -120,18 +121,10 @@ TestResult compare_one(const Test& test, const Material& material, const Protoco
     result.plastic_strain.push_back(plastic[row]);
     result.stress.push_back(std::abs(axial[row] - lateral[row]));
   }
-  double squares = 0.0, relative_squares = 0.0, relative = 0.0;
-  for (std::size_t i = 0; i < test.stress.size(); ++i) {
-    if (!counts(test, i, protocol)) continue;
-    const double error = interpolate(result.plastic_strain, result.stress, test.plastic_strain[i]) - test.stress[i];
-    ++result.points;
-    squares += error * error;
-    relative += error / test.stress[i];
-    relative_squares += error / test.stress[i] * (error / test.stress[i]);
-  }
-  result.rms = std::sqrt(squares / result.points);
-  result.relative_rms = std::sqrt(relative_squares / result.points);
-  result.mean_relative = relative / result.points;
+  for (std::size_t i = 0; i < test.stress.size(); ++i)
+    if (counts(test, i, protocol))
+      result.points.push_back({test.plastic_strain[i], test.stress[i],
+                               interpolate(result.plastic_strain, result.stress, test.plastic_strain[i])});
   return result;
 }
 
@@ -141,58 +134,96 @@ std::string conditions(const Test& test) {
   return text;
 }
 
-void print_table(const Comparison& comparison, const Results& results, double wall_time) {
-  const Protocol& protocol = comparison.protocol;
-  fmt::print("{}\n", comparison.title);
-  fmt::print("uniaxial {}, isothermal below {:g} /s, adiabatic from there; stress at equal plastic strain, from {:g} on\n\n",
-             protocol.compression ? "compression" : "tension", protocol.adiabatic_from, protocol.smallest_plastic_strain);
-  fmt::print("{:14} {:>6} {:>9} {:>9} {:>7}", "author", "T, K", "rate, 1/s", "p, MPa", "points");
-  for (const Model& model : comparison.models) fmt::print("   {:>21}", model.name);
-  fmt::print("\n{:49}", "");
-  for (std::size_t m = 0; m < comparison.models.size(); ++m) fmt::print("   {:>7} {:>6} {:>6}", "RMS,MPa", "RMS,%", "mean,%");
+struct Group {
+  std::string name;
+  std::function<bool(const Test&)> belongs;
+};
+std::vector<Group> groups() {
+  constexpr double warm = 350.0, fast = 100.0;  // K, 1/s
+  return {{"all tests", [](const Test&) { return true; }},
+          {"up to 350 K, below 100 /s", [](const Test& t) { return t.temperature <= warm && t.strain_rate < fast; }},
+          {"up to 350 K, from 100 /s", [](const Test& t) { return t.temperature <= warm && t.strain_rate >= fast; }},
+          {"above 350 K, below 100 /s", [](const Test& t) { return t.temperature > warm && t.strain_rate < fast; }},
+          {"above 350 K, from 100 /s", [](const Test& t) { return t.temperature > warm && t.strain_rate >= fast; }}};
+}
+
+void print_tests(const Comparison& comparison, const Results& results) {
+  fmt::print("{:14} {:>6} {:>9} {:>7} {:>7}", "author", "T, K", "rate, 1/s", "p, MPa", "points");
+  for (const Model& model : comparison.models) fmt::print("   {:>29}", model.name);
+  fmt::print("\n{:47}", "");
+  for (std::size_t m = 0; m < comparison.models.size(); ++m) fmt::print("   {:>7} {:>6} {:>7} {:>6}", "RMS,MPa", "norm.%", "RMS,%", "mean,%");
   fmt::print("\n");
   for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
     const Test& test = comparison.tests[t];
-    fmt::print("{:14} {:6g} {:9g} {:9g} {:7}", test.author, test.temperature, test.strain_rate, test.pressure * 1e-6,
-               results.front()[t].points);
-    for (const auto& model : results) {
-      const TestResult& r = model[t];
-      if (r.points > 0) fmt::print("   {:7.1f} {:6.1f} {:+6.1f}", r.rms * 1e-6, 100.0 * r.relative_rms, 100.0 * r.mean_relative);
-      else fmt::print("   {:>21}", "none");
-    }
+    fmt::print("{:14} {:6g} {:9g} {:7g} {:7}", test.author, test.temperature, test.strain_rate, test.pressure * 1e-6,
+               results.front()[t].points.size());
     std::string notes;
-    for (std::size_t m = 0; m < results.size(); ++m)
+    for (std::size_t m = 0; m < results.size(); ++m) {
+      const Errors e = errors_of(results[m][t].points);
+      if (e.points > 0)
+        fmt::print("   {:7.1f} {:6.1f} {:7.1f} {:+6.1f}", e.rms * 1e-6, 100.0 * e.normalised_rms, 100.0 * e.relative_rms,
+                   100.0 * e.relative_mean);
+      else
+        fmt::print("   {:>29}", "none");
       if (!results[m][t].note.empty()) notes += fmt::format("  {}: {}", comparison.models[m].name, results[m][t].note);
+    }
     fmt::print("{}\n", notes);
   }
-  fmt::print("\n{:24} {:>6} {:>7} {:>14} {:>14} {:>9} {:>9} {:>9} {:>11}\n", "model", "tests", "points", "RMS of points",
-             "RMS of tests", "median", "mean", "RMS, MPa", "within 10 %");
-  for (std::size_t m = 0; m < results.size(); ++m) {
-    const Overall all = overall(results[m]);
-    fmt::print("{:24} {:6} {:7} {:12.2f} % {:12.2f} % {:7.2f} % {:+7.2f} % {:9.1f} {:7}/{}\n", comparison.models[m].name, all.tests,
-               all.points, 100 * all.of_points, 100 * all.of_tests, 100 * all.median_of_tests, 100 * all.mean, all.rms * 1e-6,
-               all.within_10_percent, all.tests);
+}
+
+void print_groups(const Comparison& comparison, const Results& results) {
+  fmt::print("{:26} {:18} {:>6} {:>7} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11}\n", "tests", "model", "tests", "points", "RMS,MPa",
+             "norm.,%", "RMS,%", "mean,%", "tests,%", "median,%", "within 10 %");
+  for (const double from : comparison.protocol.summary_from) {
+    fmt::print("from a plastic strain of {:g}\n", from);
+    for (const Group& group : groups())
+      for (std::size_t m = 0; m < results.size(); ++m) {
+        const GroupErrors e = errors_of_group(comparison.tests, results[m], group.belongs, from);
+        if (e.tests == 0) continue;
+        fmt::print("{:26} {:18} {:6} {:7} {:8.1f} {:8.1f} {:8.1f} {:+8.1f} {:9.1f} {:9.1f} {:8}/{}\n", "  " + group.name,
+                   comparison.models[m].name, e.tests, e.all_points.points, e.all_points.rms * 1e-6,
+                   100.0 * e.all_points.normalised_rms, 100.0 * e.all_points.relative_rms, 100.0 * e.all_points.relative_mean,
+                   100.0 * e.rms_of_tests, 100.0 * e.median_of_tests, e.within_10_percent, e.tests);
+      }
   }
+}
+
+void print_report(const Comparison& comparison, const Results& results, double wall_time) {
+  const Protocol& protocol = comparison.protocol;
+  fmt::print("{}\n", comparison.title);
+  fmt::print("uniaxial {}, isothermal below {:g} /s, adiabatic from there; stress at equal plastic strain, from {:g} on\n",
+             protocol.compression ? "compression" : "tension", protocol.adiabatic_from, protocol.smallest_plastic_strain);
+  fmt::print("norm.: RMS over the test's mean stress; RMS and mean: of (computed - measured)/measured; tests: RMS of the tests' norm.\n\n");
+  print_tests(comparison, results);
+  fmt::print("\n");
+  print_groups(comparison, results);
   fmt::print("{} curves in {:.2f} s\n", comparison.tests.size() * comparison.models.size(), wall_time);
 }
 
-void write_results(const Comparison& comparison, const Results& results, const std::filesystem::path& directory) {
-  replace_file(directory / "tests.csv", [&](const std::filesystem::path& temporary) {
+std::filesystem::path points_path(const std::filesystem::path& path) {
+  return path.parent_path() / fmt::format("{}_points.csv", path.stem().string());
+}
+
+void write_results(const Comparison& comparison, const Results& results, const std::filesystem::path& path) {
+  replace_file(path, [&](const std::filesystem::path& temporary) {
     auto out = fmt::output_file(temporary.string());
     out.print("test,author,temperature [K],strain_rate [1/s],pressure [Pa],points");
     for (const Model& model : comparison.models)
-      out.print(",{0}: rms [Pa],{0}: relative_rms,{0}: mean_relative,{0}: note", model.name);
+      out.print(",{0}: rms [Pa],{0}: normalised_rms,{0}: relative_rms,{0}: relative_mean,{0}: note", model.name);
     out.print("\n");
     for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
       const Test& test = comparison.tests[t];
       out.print("{},{},{},{},{},{}", test.name, test.author, test.temperature, test.strain_rate, test.pressure,
-                results.front()[t].points);
-      for (const auto& model : results)
-        out.print(",{},{},{},\"{}\"", model[t].rms, model[t].relative_rms, model[t].mean_relative, model[t].note);
+                results.front()[t].points.size());
+      for (const auto& model : results) {
+        const Errors e = errors_of(model[t].points);
+        if (e.points > 0) out.print(",{},{},{},{},\"{}\"", e.rms, e.normalised_rms, e.relative_rms, e.relative_mean, model[t].note);
+        else out.print(",,,,,\"{}\"", model[t].note);
+      }
       out.print("\n");
     }
   });
-  replace_file(directory / "points.csv", [&](const std::filesystem::path& temporary) {
+  replace_file(points_path(path), [&](const std::filesystem::path& temporary) {
     auto out = fmt::output_file(temporary.string());
     out.print("test,plastic_strain,measured [Pa],counts");
     for (const Model& model : comparison.models) out.print(",{} [Pa]", model.name);
@@ -202,7 +233,7 @@ void write_results(const Comparison& comparison, const Results& results, const s
       for (std::size_t i = 0; i < test.stress.size(); ++i) {
         out.print("{},{},{},{}", test.name, test.plastic_strain[i], test.stress[i], counts(test, i, comparison.protocol) ? 1 : 0);
         for (const auto& model : results)
-          if (model[t].points > 0) out.print(",{}", interpolate(model[t].plastic_strain, model[t].stress, test.plastic_strain[i]));
+          if (!model[t].stress.empty()) out.print(",{}", interpolate(model[t].plastic_strain, model[t].stress, test.plastic_strain[i]));
           else out.print(",");
         out.print("\n");
       }
@@ -239,14 +270,47 @@ std::vector<Choice> choices_for_figure(const Comparison& comparison) {
   const auto by_temperature = [](const Test& t) { return std::round(t.temperature / 25.0); };
   const auto by_rate = [](const Test& t) { return std::floor(std::log10(t.strain_rate) + 1e-9); };
   const auto room = [](const Test& t) { return std::abs(t.temperature - 297.0) < 5.0 && t.pressure == 0.0 && t.stress.size() > 5; };
-  const auto pressed = [](const Test& t) { return t.pressure > 0.0; };
-  const auto pressed_by = [](const Test& t) { return t.pressure + t.temperature; };
-  std::vector<Choice> all{choose(tests, "slow, isothermal: temperature", 5, slow, by_temperature),
-                          choose(tests, "fast, adiabatic: temperature", 5, fast, by_temperature),
+  const auto pressed = [&](const Test& t) {
+    const bool author = std::any_of(tests.begin(), tests.end(),
+                                    [&](const Test& other) { return other.author == t.author && other.pressure > 0.0; });
+    return author && std::abs(t.temperature - 300.0) < 5.0;
+  };
+  const auto by_pressure = [](const Test& t) { return t.pressure; };
+  std::vector<Choice> all{choose(tests, "below 0.1 /s: temperature", 5, slow, by_temperature),
+                          choose(tests, "from 900 /s: temperature", 5, fast, by_temperature),
                           choose(tests, "room temperature: strain rate", 5, room, by_rate),
-                          choose(tests, "superposed pressure", 4, pressed, pressed_by)};
+                          choose(tests, "room temperature: superposed pressure", 4, pressed, by_pressure)};
   std::erase_if(all, [](const Choice& c) { return c.tests.empty(); });
   return all;
+}
+
+/// The error of every test, in the order of temperature and then rate.
+Panel error_panel(const Comparison& comparison, const Results& results) {
+  std::vector<std::size_t> order(comparison.tests.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const Test &first = comparison.tests[a], &second = comparison.tests[b];
+    return std::pair(first.temperature, first.strain_rate) < std::pair(second.temperature, second.strain_rate);
+  });
+  Panel panel{.title = "RMS error of each test over its mean stress", .y_label = "error (%)"};
+  panel.wide = true;
+  panel.logarithmic_y = true;
+  panel.legend = "top left horizontal";
+  for (const std::size_t t : order) panel.x_names.push_back(fmt::format("{} {}", comparison.tests[t].author, conditions(comparison.tests[t])));
+  const double end = static_cast<double>(order.size());
+  for (std::size_t m = 0; m < results.size(); ++m) {
+    Curve curve{comparison.models[m].name, {}, {}, m == 0 ? Mark::points : Mark::squares, static_cast<int>(m)};
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const Errors e = errors_of(results[m][order[i]].points);
+      if (e.points == 0) continue;
+      curve.x.push_back(static_cast<double>(i));
+      curve.y.push_back(100.0 * e.normalised_rms);
+    }
+    panel.curves.push_back(std::move(curve));
+  }
+  panel.curves.push_back({"10 %", {-1.0, end}, {10.0, 10.0}, Mark::dashed, 6});
+  panel.x_range = {-1.0, end};
+  return panel;
 }
 
 Figure figure_of(const Comparison& comparison, const Results& results) {
@@ -286,29 +350,7 @@ Figure figure_of(const Comparison& comparison, const Results& results) {
     panel.y_range = {0.0, 1.05 * stress};
     figure.panels.push_back(std::move(panel));
   }
-  // Error of every test, sorted by temperature and rate.
-  std::vector<std::size_t> order(comparison.tests.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto by_error_panel = [&](const std::string& title, const std::string& label, bool logarithmic, auto&& abscissa) {
-    Panel panel{.title = title, .x_label = label, .y_label = "relative RMS error (%)"};
-    panel.logarithmic_x = logarithmic;
-    panel.legend = "top right";
-    double largest = 0.0;
-    for (std::size_t m = 0; m < results.size(); ++m) {
-      Curve curve{comparison.models[m].name, {}, {}, Mark::points, static_cast<int>(m)};
-      for (const std::size_t t : order) {
-        if (results[m][t].points == 0) continue;
-        curve.x.push_back(abscissa(comparison.tests[t]));
-        curve.y.push_back(100.0 * results[m][t].relative_rms);
-        largest = std::max(largest, curve.y.back());
-      }
-      panel.curves.push_back(std::move(curve));
-    }
-    panel.y_range = {0.0, 1.05 * largest};
-    figure.panels.push_back(std::move(panel));
-  };
-  by_error_panel("error of each test", "temperature (K)", false, [](const Test& t) { return t.temperature; });
-  by_error_panel("error of each test", "strain rate (1/s)", true, [](const Test& t) { return t.strain_rate; });
+  figure.panels.push_back(error_panel(comparison, results));
   return figure;
 }
 
@@ -344,6 +386,7 @@ Comparison read_comparison(const std::filesystem::path& file, const std::vector<
         protocol->number_or("smallest_plastic_strain", p.smallest_plastic_strain, {Unit::one, non_negative, "plastic strain"});
     p.strain_increment = protocol->number_or("strain_increment", p.strain_increment,
                                              {Unit::one, {.lower = 0.0, .upper = 0.05, .lower_open = true}, "strain of a step"});
+    if (auto from = protocol->optional_numbers("summary_from", {Unit::one, non_negative, "plastic strains"})) p.summary_from = *from;
   }
   for (TableReader& model : top.tables("model"))
     comparison.models.push_back({model.text("name", "for the table and the figure"), resolve_material(model, "material")});
@@ -369,40 +412,62 @@ Results compare(const Comparison& comparison) {
   return results;
 }
 
-Overall overall(const std::vector<TestResult>& results) {
-  Overall all;
-  std::vector<double> errors;
-  double points = 0.0, tests = 0.0, squares = 0.0, mean = 0.0;
-  for (const TestResult& r : results) {
-    if (r.points == 0) continue;
-    ++all.tests;
-    all.points += r.points;
-    points += r.points * r.relative_rms * r.relative_rms;
-    squares += r.points * r.rms * r.rms;
-    mean += r.points * r.mean_relative;
-    tests += r.relative_rms * r.relative_rms;
-    errors.push_back(r.relative_rms);
-    all.within_10_percent += r.relative_rms <= 0.1;
+Errors errors_of(const std::vector<ComparedPoint>& points) {
+  Errors e;
+  e.points = static_cast<int>(points.size());
+  if (points.empty()) return e;
+  double squares = 0.0, relative_squares = 0.0, relative = 0.0, measured = 0.0;
+  for (const ComparedPoint& p : points) {
+    const double error = p.computed - p.measured;
+    squares += error * error;
+    relative += error / p.measured;
+    relative_squares += error / p.measured * (error / p.measured);
+    measured += p.measured;
   }
-  if (errors.empty()) return all;
-  all.of_points = std::sqrt(points / all.points);
-  all.of_tests = std::sqrt(tests / all.tests);
-  all.rms = std::sqrt(squares / all.points);
-  all.mean = mean / all.points;
+  const double n = e.points;
+  e.rms = std::sqrt(squares / n);
+  e.normalised_rms = e.rms / (measured / n);
+  e.relative_rms = std::sqrt(relative_squares / n);
+  e.relative_mean = relative / n;
+  return e;
+}
+
+GroupErrors errors_of_group(const std::vector<Test>& tests, const std::vector<TestResult>& results,
+                            const std::function<bool(const Test&)>& belongs, double smallest_plastic_strain) {
+  GroupErrors group;
+  std::vector<ComparedPoint> all;
+  std::vector<double> errors;
+  double squares = 0.0;
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    if (!belongs(tests[t])) continue;
+    std::vector<ComparedPoint> points = results[t].points;
+    std::erase_if(points, [&](const ComparedPoint& p) { return p.plastic_strain < smallest_plastic_strain; });
+    if (points.empty()) continue;
+    all.insert(all.end(), points.begin(), points.end());
+    errors.push_back(errors_of(points).normalised_rms);
+    squares += errors.back() * errors.back();
+    group.within_10_percent += errors.back() <= 0.1;
+  }
+  if (errors.empty()) return group;
+  group.tests = static_cast<int>(errors.size());
+  group.all_points = errors_of(all);
+  group.rms_of_tests = std::sqrt(squares / group.tests);
   std::sort(errors.begin(), errors.end());
   const std::size_t half = errors.size() / 2;
-  all.median_of_tests = errors.size() % 2 ? errors[half] : 0.5 * (errors[half - 1] + errors[half]);
-  return all;
+  group.median_of_tests = errors.size() % 2 ? errors[half] : 0.5 * (errors[half - 1] + errors[half]);
+  return group;
 }
 
 int run_comparison(const CompareOptions& options) {
+  if (!options.output.empty() && options.output.extension() != ".csv")
+    throw std::invalid_argument(fmt::format("{}: the file name must end in .csv", options.output.string()));
   const Comparison comparison = read_comparison(options.file, options.overrides);
   const auto begin = std::chrono::steady_clock::now();
   const Results results = compare(comparison);
-  print_table(comparison, results, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  print_report(comparison, results, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   if (!options.output.empty()) {
     write_results(comparison, results, options.output);
-    fmt::print("tests.csv and points.csv: {}\n", options.output.string());
+    fmt::print("tests: {}\npoints: {}\n", options.output.string(), points_path(options.output).string());
   }
   for (const std::filesystem::path& path : options.figures) {
     draw(figure_of(comparison, results), path);

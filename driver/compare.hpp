@@ -2,7 +2,7 @@
 // `pointdriver compare`: measured stress-strain curves against material models, test by test.
 
 #include <filesystem>
-#include <optional>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,6 +32,7 @@ struct Protocol {
   double adiabatic_from = 1.0;            // 1/s; below, a test is isothermal
   double smallest_plastic_strain = 0.002; // below, a measurement is elastic loading, not flow
   double strain_increment = 2e-4;
+  std::vector<double> summary_from{0.002};  // the summary is made of the points from each of these plastic strains on
 };
 
 struct Comparison {
@@ -39,42 +40,53 @@ struct Comparison {
   std::vector<Test> tests;
   std::vector<Model> models;
   Protocol protocol;
-  std::vector<std::string> panels;  // names of the tests that the figure shows; empty: chosen evenly
 };
 
 /// Reads a comparison file. Throws InputError.
 Comparison read_comparison(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
+/// A measured point that counts, and what a model gives at its plastic strain.
+struct ComparedPoint {
+  double plastic_strain, measured, computed;  // -, Pa, Pa
+};
+
 /// One model on one test.
 struct TestResult {
   std::vector<double> plastic_strain, stress;  // the computed curve
-  int points = 0;                              // that count
-  double rms = 0.0;                            // Pa, of computed - measured
-  double relative_rms = 0.0;                   // of (computed - measured)/measured
-  double mean_relative = 0.0;                  // its mean: positive where the model is too strong
-  std::string note;                            // why a test has no result, or how it ended
+  std::vector<ComparedPoint> points;
+  std::string note;  // why a test has no result, or which failure criterion fired
 };
 
 /// results[model][test]
 using Results = std::vector<std::vector<TestResult>>;
 Results compare(const Comparison& comparison);
 
-/// Errors over all tests of one model.
-struct Overall {
-  int tests = 0, points = 0;
-  double of_points = 0.0;       // RMS of the relative error over all points
-  double of_tests = 0.0;        // RMS over the tests of each test's relative RMS
-  double median_of_tests = 0.0;
-  double mean = 0.0;            // mean over the points of the relative error
-  double rms = 0.0;             // Pa, over all points
-  int within_10_percent = 0;    // tests
+/// Errors over a set of points. Relative errors are those of each point, (computed - measured)/measured; the normalised RMS is
+/// rms over the mean of the measured stress, which a few weak points at the foot of a curve do not rule.
+struct Errors {
+  int points = 0;
+  double rms = 0.0;            // Pa
+  double normalised_rms = 0.0;
+  double relative_rms = 0.0;
+  double relative_mean = 0.0;  // positive where the model is too strong
 };
-Overall overall(const std::vector<TestResult>& results);
+Errors errors_of(const std::vector<ComparedPoint>& points);
+
+/// Errors over tests that a group has in common, from a plastic strain on.
+struct GroupErrors {
+  int tests = 0;
+  Errors all_points;
+  double rms_of_tests = 0.0;     // of each test's normalised RMS
+  double median_of_tests = 0.0;
+  int within_10_percent = 0;     // tests
+};
+GroupErrors errors_of_group(const std::vector<Test>& tests, const std::vector<TestResult>& results,
+                            const std::function<bool(const Test&)>& belongs, double smallest_plastic_strain);
 
 struct CompareOptions {
   std::filesystem::path file;
   std::vector<std::string> overrides;
-  std::filesystem::path output;                // directory of results.csv; empty: none
+  std::filesystem::path output;                // NAME.csv of the tests; NAME_points.csv goes beside it. Empty: none
   std::vector<std::filesystem::path> figures;  // .png, .svg
 };
 

@@ -39,7 +39,7 @@ std::string style_of(const Curve& curve) {
     case Mark::line: return fmt::format("with lines lw 2 lc rgb '{}'", colour);
     case Mark::dashed: return fmt::format("with lines lw 2 dt (7,4) lc rgb '{}'", colour);
     case Mark::points: return fmt::format("with points pt 6 ps 0.7 lw 1.2 lc rgb '{}'", colour);
-    case Mark::impulses: return fmt::format("with impulses lw 3 lc rgb '{}'", colour);
+    case Mark::squares: return fmt::format("with points pt 4 ps 0.7 lw 1.2 lc rgb '{}'", colour);
   }
   return {};
 }
@@ -47,16 +47,17 @@ std::string style_of(const Curve& curve) {
 void draw_panel(Gnuplot& plot, const Panel& panel) {
   plot << "set title " << plain(panel.title) << " font ',12'\n";
   plot << "set xlabel " << quoted_text(panel.x_label) << "\nset ylabel " << quoted_text(panel.y_label) << "\n";
-  plot << "unset xrange\nset xrange [*:*]\nset yrange [*:*]\nset xtics auto norotate\n";
+  plot << "set xrange [*:*]\nset yrange [*:*]\n";
   if (panel.x_range) plot << fmt::format("set xrange [{}:{}]\n", (*panel.x_range)[0], (*panel.x_range)[1]);
   if (panel.y_range) plot << fmt::format("set yrange [{}:{}]\n", (*panel.y_range)[0], (*panel.y_range)[1]);
   plot << (panel.logarithmic_x ? "set logscale x\nset format x '10^{%L}'\n" : "unset logscale x\nset format x '%g'\n");
+  plot << (panel.logarithmic_y ? "set logscale y\n" : "unset logscale y\n");
   if (!panel.x_names.empty()) {
-    plot << "set xtics rotate by 60 right (";
+    plot << "set xtics rotate by 90 right (";
     for (std::size_t i = 0; i < panel.x_names.size(); ++i) plot << (i ? ", " : "") << plain(panel.x_names[i]) << " " << i;
-    plot << ") font ',8'\n";
+    plot << ") font ',7'\n";
   } else {
-    plot << "set xtics font ',10'\n";
+    plot << "set xtics norotate autofreq font ',10'\n";
   }
   const bool legend =
       std::any_of(panel.curves.begin(), panel.curves.end(), [](const Curve& c) { return !c.title.empty(); });
@@ -77,6 +78,21 @@ void draw_panel(Gnuplot& plot, const Panel& panel) {
     for (std::size_t i = 0; i < curve.x.size(); ++i) points.emplace_back(curve.x[i], curve.y[i]);
     plot.send1d(points);
   }
+}
+
+struct Cell {
+  int row, column, width;
+};
+std::vector<Cell> arrange(const std::vector<Panel>& panels, int columns) {
+  std::vector<Cell> cells;
+  int row = 0, column = 0;
+  for (const Panel& panel : panels) {
+    const int width = panel.wide ? columns : 1;
+    if (column + width > columns) ++row, column = 0;
+    cells.push_back({row, column, width});
+    column += width;
+  }
+  return cells;
 }
 
 bool changes(const Record& record, std::string_view name, double threshold) {
@@ -113,7 +129,8 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
   if (ending != ".png" && ending != ".svg")
     throw std::invalid_argument(fmt::format("{}: the ending of a figure is .png or .svg", path.string()));
   const int columns = std::max(1, figure.columns);
-  const int rows = std::max(1, (static_cast<int>(figure.panels.size()) + columns - 1) / columns);
+  const std::vector<Cell> cells = arrange(figure.panels, columns);
+  const int rows = cells.empty() ? 1 : cells.back().row + 1;
   const int width = columns * figure.panel_width, height = rows * figure.panel_height + 40;
   replace_file(path, [&](const std::filesystem::path& temporary) {
     {
@@ -124,8 +141,14 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
         plot << fmt::format("set terminal svg enhanced font 'DejaVu Sans,11' size {},{} background 'white'\n", width, height);
       plot << "set encoding utf8\nset output " << quoted_text(temporary.string()) << "\n";
       plot << "set border 3 lw 1.2\nset tics nomirror out scale 0.6 font ',10'\nset grid lc rgb '#e4e4e4' lw 0.6\n";
-      plot << fmt::format("set multiplot layout {},{} title {} font ',13'\n", rows, columns, plain(figure.title));
-      for (const Panel& panel : figure.panels) draw_panel(plot, panel);
+      plot << fmt::format("set multiplot title {} font ',13'\n", plain(figure.title));
+      const double top = 1.0 - 34.0 / height;  // below the title
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        const Cell& cell = cells[i];
+        plot << fmt::format("set size {},{}\nset origin {},{}\n", cell.width / static_cast<double>(columns), top / rows,
+                            cell.column / static_cast<double>(columns), top * (rows - 1 - cell.row) / rows);
+        draw_panel(plot, figure.panels[i]);
+      }
       plot << "unset multiplot\nunset output\n";
     }  // waits for gnuplot to end
     if (!std::filesystem::exists(temporary) || std::filesystem::file_size(temporary) == 0)

@@ -11,7 +11,7 @@
 
 namespace brisance::driver {
 
-enum class Mark { line, dashed, points, impulses };
+enum class Mark { line, dashed, points, squares };
 
 struct Curve {
   std::string title;  // empty: not in the legend
@@ -24,9 +24,10 @@ struct Panel {
   std::string title{}, x_label{}, y_label{};
   std::vector<Curve> curves{};
   std::optional<std::array<double, 2>> x_range{}, y_range{};
-  bool logarithmic_x = false;
+  bool logarithmic_x = false, logarithmic_y = false;
+  bool wide = false;                // takes a row of its own
   std::string legend = "top left";  // gnuplot's words for its place
-  std::vector<std::string> x_names{};  // names under x = 0, 1, 2, ...
+  std::vector<std::string> x_names{};  // stand upright under x = 0, 1, 2, ...
 };
 
 struct Figure {

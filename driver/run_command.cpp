@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/os.h>
 
+#include <algorithm>
 #include <chrono>
+#include <stdexcept>
 
 #include "driver/commands.hpp"
 #include "driver/follow.hpp"
@@ -69,9 +71,10 @@ Done follow_and_write(const PointCase& point, const RunOptions& options, const s
   Outcome outcome;
   try {
     outcome = follow(point.file.material, point.path, history, {watcher, options.reference});
-  } catch (const RunError&) {
+  } catch (const RunError& error) {
     keep();
-    throw;
+    if (output.empty()) throw;
+    throw RunError(fmt::format("{}\nThe history up to there: {}", error.what(), output.string()));
   }
   keep();
   return {std::move(outcome), history.record()};
@@ -178,6 +181,12 @@ int run_sweep(const RunOptions& options, const std::vector<SweepAxis>& axes) {
 int run(const RunOptions& options) {
   catch_interrupts();
   const std::vector<SweepAxis> axes = read_sweep(options.file);
+  const auto require_ending = [](const std::filesystem::path& path, std::initializer_list<std::string_view> endings) {
+    if (path.empty() || std::find(endings.begin(), endings.end(), path.extension().string()) != endings.end()) return;
+    throw std::invalid_argument(fmt::format("{}: the file name must end in {}", path.string(), fmt::join(endings, " or ")));
+  };
+  if (axes.empty()) require_ending(options.output, {".csv", ".h5", ".hdf5"});
+  require_ending(options.figure, {".png", ".svg"});
   return axes.empty() ? run_one(options) : run_sweep(options, axes);
 }
 

@@ -22,27 +22,27 @@ struct Point {
   // Kinematics.
   Tensor<Real> rotation;                   // of the step: what it has already done to the stress
   SymmetricTensor<Real> strain_increment;  // logarithmic, in the frame of the end of the step
-  Real density_before{0.0};        // kg/m^3
-  Real metal_density_before{0.0};  // kg/m^3, without the volume of the voids that plastic flow has opened
-  Real metal_density{0.0};         // kg/m^3, the same at the end of the step
-  Real pressure_before{0.0};       // Pa
+  Real density_before{0.0};                // kg/m^3
+  Real metal_density_before{0.0};          // kg/m^3, without the volume of the voids that plastic flow has opened
+  Real metal_density{0.0};                 // kg/m^3, the same at the end of the step
+  Real pressure_before{0.0};               // Pa
 
   // State functions at the start of the step, then results.
-  Real melting_temperature{0.0};         // K; infinite when the material has no melting law
-  Real bulk_modulus{0.0};                // Pa, isentropic tangent
-  Real trial_pressure{0.0};              // Pa
-  Real artificial_viscosity{0.0};        // Pa, to be added to the pressure in forces
-  SymmetricTensor<Real> deviator;        // Pa; before the step, then trial, then returned
-  SymmetricTensor<Real> deviator_before; // Pa
-  Real flow_stress{0.0};                 // Pa, of the matrix
-  Real plastic_strain_increment{0.0};    // -, of the matrix
-  Real plastic_volume_increment{0.0};    // -
-  Real plastic_work{0.0};                // J/m^3
-  Real released_heat{0.0};               // J/kg, elastic energy set free by melting
-  Real warming{0.0};                     // K kg/J, temperature rise per plastic work: chi/cp
-  Real pressure{0.0};                    // Pa
-  Real stability_margin{1.0};            // -, <= 0 is unstable
-  Real trouble{0.0};                     // Trouble as a number
+  Real melting_temperature{0.0};          // K; infinite when the material has no melting law
+  Real bulk_modulus{0.0};                 // Pa, isentropic tangent
+  Real trial_pressure{0.0};               // Pa
+  Real artificial_viscosity{0.0};         // Pa, to be added to the pressure in forces
+  SymmetricTensor<Real> deviator;         // Pa; before the step, then trial, then returned
+  SymmetricTensor<Real> deviator_before;  // Pa
+  Real flow_stress{0.0};                  // Pa, of the matrix
+  Real plastic_strain_increment{0.0};     // -, of the matrix
+  Real plastic_volume_increment{0.0};     // -
+  Real plastic_work{0.0};                 // J/m^3
+  Real released_heat{0.0};                // J/kg, elastic energy set free by melting
+  Real warming{0.0};                      // K kg/J, temperature rise per plastic work: chi/cp
+  Real pressure{0.0};                     // Pa
+  Real stability_margin{1.0};             // -, <= 0 is unstable
+  Real trouble{0.0};                      // Trouble as a number
 };
 
 template <class Real>

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <limits>
+
 #include "models/dual.hpp"
 
 namespace brisance {
 
 /// The root between two bounds of an increasing function: Newton's method with the slope from duals, and bisection where
-/// Newton would leave the bracket. Without a root between the bounds the result is the bound where the function is nearest
-/// to zero. `scale` is a magnitude of x too small to matter.
-/// A lane that has converged computes the same step again and stays, so it does not feel its neighbours. The last step
-/// squares the remaining error, and gives the derivatives of the root when Real is a dual.
+/// Newton would leave the bracket or the last step did not halve the function. Without a root between the bounds the result is
+/// the bound where the function is nearest to zero. `scale` is a magnitude of x too small to matter. A lane that has converged
+/// computes the same step again and stays, so it does not feel its neighbours. The last step squares the remaining error, and
+/// gives the derivatives of the root when Real is a dual.
 template <class Real, class Function>
 Real increasing_root(const Function& f, const Real& lower, const Real& upper, Real x, double scale = 0.0) {
   constexpr int most_steps = 100;
@@ -20,15 +22,19 @@ Real increasing_root(const Function& f, const Real& lower, const Real& upper, Re
     value = y.value;
     return Real(at - y.value / max(y.derivative[0], Real(least_slope)));
   };
-  Real value;
+  Real value, last_size(std::numeric_limits<double>::infinity());
   for (int i = 0; i < most_steps; ++i) {
     const Real newton = newton_from(x, value);
     lowest = select(value < 0.0, x, lowest);
     highest = select(value > 0.0, x, highest);
     const Real middle = 0.5 * (lowest + highest);
-    const Real next = select(newton >= lowest, select(newton <= highest, newton, middle), middle);
-    const auto moves = abs(next - x) > last_but_one * (abs(x) + scale);
+    const Real small = last_but_one * (abs(x) + scale);
+    const mask_of<Real> arriving = (abs(value) <= 0.5 * last_size) | (abs(newton - x) <= small);
+    const mask_of<Real> trusted = (newton >= lowest) & (newton <= highest) & arriving;
+    const Real next = select(trusted, newton, middle);
+    const mask_of<Real> moves = abs(next - x) > small;
     x = select(moves, next, x);
+    last_size = select(moves, abs(value), last_size);
     if (none(moves)) break;
   }
   const Real last = newton_from(x, value);

@@ -17,11 +17,7 @@ struct Dual {
 
   Dual() { derivative.fill(Base(0.0)); }
   Dual(double constant) : value(constant) { derivative.fill(Base(0.0)); }
-  Dual(const Base& constant)
-    requires(!std::is_same_v<Base, double>)
-      : value(constant) {
-    derivative.fill(Base(0.0));
-  }
+  Dual(const Base& constant) requires(!std::is_same_v<Base, double>) : value(constant) { derivative.fill(Base(0.0)); }
   Dual(const Base& f, const std::array<Base, N>& slopes) : value(f), derivative(slopes) {}
 
   /// The independent variable number `index`: derivative one with respect to itself.

@@ -1,34 +1,84 @@
 #pragma once
 // Finite kinematics of one step: the increment of deformation dF = exp(dt L), its rotation and its logarithmic strain.
 
+#include <array>
+#include <cstddef>
+
 #include "models/tensor.hpp"
 
 namespace brisance {
 
-/// exp(A) by its power series, summed through the Cayley-Hamilton theorem: only A^2 is formed, the rest are scalars.
-/// Exact to round-off for |A| <= 0.5; `error` grows beyond (1e-9 at |A| = 1.2).
+namespace detail {
+
+/// The first coefficients of a power series, from the ratio of one to the next.
+template <std::size_t count, class Ratio>
+constexpr std::array<double, count> series(double first, Ratio&& ratio) {
+  std::array<double, count> c{};
+  c[0] = first;
+  for (std::size_t k = 1; k < count; ++k) c[k] = c[k - 1] * ratio(static_cast<double>(k));
+  return c;
+}
+inline constexpr auto exponential_series = series<15>(1.0, [](double k) { return 1.0 / k; });
+inline constexpr auto inverse_root_series = series<31>(1.0, [](double k) { return -(2.0 * k - 1.0) / (2.0 * k); });
+inline constexpr auto half_logarithm_series = [] {
+  std::array<double, 31> c{};
+  for (std::size_t k = 1; k < c.size(); ++k) c[k] = (k % 2 ? 0.5 : -0.5) / static_cast<double>(k);
+  return c;
+}();
+
+/// The powers of a tensor by its invariants (Cayley-Hamilton): A^k = a A^2 + b A + c I.
 template <class Real>
-Tensor<Real> exponential(const Tensor<Real>& A) {
+struct Powers {
+  Real I1, I2, I3;
+  Real a{1.0}, b{0.0}, c{0.0};  // of A^2
+  void next() {
+    const Real a_next = a * I1 + b, b_next = c - a * I2, c_next = a * I3;
+    a = a_next, b = b_next, c = c_next;
+  }
+};
+
+/// A power series from its second power on, in the basis A^2, A, I.
+template <class Real>
+struct Sum {
+  Real a, b{0.0}, c{0.0};
+};
+
+/// Sums a series up to the power `last`; where `large`, up to the last coefficient, whatever the neighbouring lanes do.
+template <std::size_t last, class Real, std::size_t count>
+Sum<Real> sum_series(const std::array<double, count>& coefficients, Powers<Real> power, const mask_of<Real>& large) {
+  Sum<Real> sum{Real(coefficients[2])};
+  const auto add = [&](Sum<Real>& to, std::size_t k) {
+    power.next();
+    to.a = to.a + coefficients[k] * power.a, to.b = to.b + coefficients[k] * power.b, to.c = to.c + coefficients[k] * power.c;
+  };
+  for (std::size_t k = 3; k <= last; ++k) add(sum, k);
+  if (none(large)) return sum;
+  Sum<Real> longer = sum;
+  for (std::size_t k = last + 1; k < count; ++k) add(longer, k);
+  return {select(large, longer.a, sum.a), select(large, longer.b, sum.b), select(large, longer.c, sum.c)};
+}
+
+}  // namespace detail
+
+/// exp(A) - I by its power series, of which only A^2 is formed, the rest are scalars. Exact to round-off for |A| <= 0.5;
+/// beyond, the error grows (1e-9 at |A| = 1.2).
+template <class Real>
+Tensor<Real> exponential_minus_identity(const Tensor<Real>& A) {
   const Tensor<Real> A2 = A * A;
   const Real I1 = trace(A), I2 = 0.5 * (I1 * I1 - trace(A2)), I3 = determinant(A);
-  // A^k = a A^2 + b A + c I, starting at k = 2.
-  Real a(1.0), b(0.0), c(0.0);
-  Real sum_a(0.5), sum_b(1.0), sum_c(1.0);
-  double reciprocal_factorial = 0.5;
-  for (int k = 3; k <= 14; ++k) {
-    const Real next_a = a * I1 + b, next_b = c - a * I2, next_c = a * I3;
-    a = next_a, b = next_b, c = next_c;
-    reciprocal_factorial /= k;
-    sum_a = sum_a + reciprocal_factorial * a;
-    sum_b = sum_b + reciprocal_factorial * b;
-    sum_c = sum_c + reciprocal_factorial * c;
-  }
-  Tensor<Real> result = sum_a * A2 + sum_b * A;
-  result.xx = result.xx + sum_c, result.yy = result.yy + sum_c, result.zz = result.zz + sum_c;
+  const mask_of<Real> large = double_dot(A, A) > 0.03 * 0.03;
+  const auto sum = detail::sum_series<8>(detail::exponential_series, detail::Powers<Real>{I1, I2, I3}, large);
+  Tensor<Real> result = sum.a * A2 + (1.0 + sum.b) * A;
+  result.xx = result.xx + sum.c, result.yy = result.yy + sum.c, result.zz = result.zz + sum.c;
   return result;
 }
 
-/// dF = V R with V symmetric: the rotation R and the logarithmic strain ln V.
+template <class Real>
+Tensor<Real> exponential(const Tensor<Real>& A) {
+  return Tensor<Real>::identity() + exponential_minus_identity(A);
+}
+
+/// I + B = V R with V symmetric: the rotation R and the logarithmic strain ln V.
 template <class Real>
 struct PolarIncrement {
   Tensor<Real> rotation;
@@ -36,48 +86,22 @@ struct PolarIncrement {
   Real size;  // |V^2 - I|; the series below are exact to round-off up to 0.3
 };
 
-namespace detail {
-/// f(E) = f0 I + f1 E + f2 E^2 + ... for two power series at once, summed through the Cayley-Hamilton theorem.
-/// next(k, a, b) turns the k-th coefficients of both series into the (k+1)-th.
-template <class Real, class Next>
-void isotropic_series(const SymmetricTensor<Real>& E, int terms, double first_0, double first_1, double second_0, double second_1,
-                      Next&& next, SymmetricTensor<Real>& first, SymmetricTensor<Real>& second) {
+/// Of the increment of deformation dF = I + B. It is B that is given because 1 + B would round the strain of a small step.
+template <class Real>
+PolarIncrement<Real> polar_increment(const Tensor<Real>& B) {
+  const Tensor<Real> dF = Tensor<Real>::identity() + B;
+  const SymmetricTensor<Real> E = Real(2.0) * symmetric_part(B) + times_own_transpose(B);  // V^2 - I
   const SymmetricTensor<Real> E2 = square(E);
   const Real I1 = trace(E), I2 = 0.5 * (I1 * I1 - trace(E2)), I3 = determinant(E);
-  Real a(0.0), b(1.0), c(0.0);
-  Real fa(0.0), fb(first_1), fc(first_0), ga(0.0), gb(second_1), gc(second_0);
-  double f = first_1, g = second_1;
-  for (int k = 1; k < terms; ++k) {
-    const Real next_a = a * I1 + b, next_b = c - a * I2, next_c = a * I3;
-    a = next_a, b = next_b, c = next_c;
-    next(k, f, g);
-    fa = fa + f * a, fb = fb + f * b, fc = fc + f * c;
-    ga = ga + g * a, gb = gb + g * b, gc = gc + g * c;
-  }
-  first = add_to_diagonal(fa * E2 + fb * E, fc);
-  second = add_to_diagonal(ga * E2 + gb * E, gc);
-}
-}  // namespace detail
-
-template <class Real>
-PolarIncrement<Real> polar_increment(const Tensor<Real>& dF) {
-  const SymmetricTensor<Real> E = add_to_diagonal(times_own_transpose(dF), Real(-1.0));  // V^2 - I
   PolarIncrement<Real> result;
-  result.size = norm(E);
-  SymmetricTensor<Real> inverse_V;
-  // (1 + E)^(-1/2) and ln(1 + E)/2. A lane that needs the long sum takes it whatever its neighbours do.
-  const auto next = [](int k, double& f, double& g) {
-    f *= -(2.0 * k + 1.0) / (2.0 * k + 2.0);
-    g *= -static_cast<double>(k) / (k + 1.0);
-  };
-  detail::isotropic_series(E, 10, 1.0, -0.5, 0.0, 0.5, next, inverse_V, result.strain);
-  const auto large = result.size > 0.03;
-  if (any(large)) {
-    SymmetricTensor<Real> inverse_V_long, strain_long;
-    detail::isotropic_series(E, 30, 1.0, -0.5, 0.0, 0.5, next, inverse_V_long, strain_long);
-    inverse_V = select(large, inverse_V_long, inverse_V);
-    result.strain = select(large, strain_long, result.strain);
-  }
+  const Real size2 = trace(E2);
+  result.size = sqrt(size2);
+  const mask_of<Real> large = size2 > 0.004 * 0.004;
+  const detail::Powers<Real> powers{I1, I2, I3};
+  const auto root = detail::sum_series<7>(detail::inverse_root_series, powers, large);
+  const auto logarithm = detail::sum_series<7>(detail::half_logarithm_series, powers, large);
+  const SymmetricTensor<Real> inverse_V = add_to_diagonal(root.a * E2 + (root.b - 0.5) * E, Real(1.0 + root.c));
+  result.strain = add_to_diagonal(logarithm.a * E2 + (logarithm.b + 0.5) * E, logarithm.c);
   result.rotation = to_tensor(inverse_V) * dF;
   return result;
 }

@@ -30,7 +30,8 @@ enum class ObjectiveRate {
   green_naghdi           // the polar rotation of the whole deformation gradient
 };
 template <>
-inline constexpr std::array choices<ObjectiveRate> = {std::string_view{"incremental_rotation"}, std::string_view{"green_naghdi"}};
+inline constexpr std::array choices<ObjectiveRate> = {std::string_view{"incremental_rotation"},
+                                                      std::string_view{"green_naghdi"}};
 
 struct Material {
   std::string name;

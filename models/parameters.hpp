@@ -10,20 +10,22 @@
 #include <tuple>
 #include <type_traits>
 
+#include "models/real.hpp"
+
 namespace brisance {
 
 /// A unit of measurement, by the text udunits understands. Values in the program are always in this unit.
 struct Unit {
   std::string_view text;
-  static const Unit one, Pa, K, kg_per_m3, m, s, per_s, per_K, per_Pa, K_per_Pa, m_per_s, J_per_kg, J_per_kg_K, m3_per_kg,
-      Pa_s, Pa_per_K, J, kg, Pa_sqrt_m, W_per_m_K, J_per_m3, J_per_mol, m2, kg_per_m2_s, kg_per_mol, J_per_mol_K;
+  static const Unit one, Pa, K, kg_per_m3, m, s, per_s, per_K, per_Pa, K_per_Pa, m_per_s, J_per_kg, J_per_kg_K, m3_per_kg, Pa_s,
+      Pa_per_K, J, kg, Pa_sqrt_m, W_per_m_K, J_per_m3, J_per_mol, m2, kg_per_m2_s, kg_per_mol, J_per_mol_K;
 };
 inline constexpr Unit Unit::one{"1"}, Unit::Pa{"Pa"}, Unit::K{"K"}, Unit::kg_per_m3{"kg/m^3"}, Unit::m{"m"}, Unit::s{"s"},
     Unit::per_s{"1/s"}, Unit::per_K{"1/K"}, Unit::per_Pa{"1/Pa"}, Unit::K_per_Pa{"K/Pa"}, Unit::m_per_s{"m/s"},
-    Unit::J_per_kg{"J/kg"}, Unit::J_per_kg_K{"J/(kg K)"}, Unit::m3_per_kg{"m^3/kg"}, Unit::Pa_s{"Pa s"},
-    Unit::Pa_per_K{"Pa/K"}, Unit::J{"J"}, Unit::kg{"kg"}, Unit::Pa_sqrt_m{"Pa m^0.5"}, Unit::W_per_m_K{"W/(m K)"},
-    Unit::J_per_m3{"J/m^3"}, Unit::J_per_mol{"J/mol"}, Unit::m2{"m^2"}, Unit::kg_per_m2_s{"kg/(m^2 s)"},
-    Unit::kg_per_mol{"kg/mol"}, Unit::J_per_mol_K{"J/(mol K)"};
+    Unit::J_per_kg{"J/kg"}, Unit::J_per_kg_K{"J/(kg K)"}, Unit::m3_per_kg{"m^3/kg"}, Unit::Pa_s{"Pa s"}, Unit::Pa_per_K{"Pa/K"},
+    Unit::J{"J"}, Unit::kg{"kg"}, Unit::Pa_sqrt_m{"Pa m^0.5"}, Unit::W_per_m_K{"W/(m K)"}, Unit::J_per_m3{"J/m^3"},
+    Unit::J_per_mol{"J/mol"}, Unit::m2{"m^2"}, Unit::kg_per_m2_s{"kg/(m^2 s)"}, Unit::kg_per_mol{"kg/mol"},
+    Unit::J_per_mol_K{"J/(mol K)"};
 
 /// The values a parameter may take: between lower and upper, ends included unless open.
 struct Interval {
@@ -45,8 +47,12 @@ inline constexpr Interval positive{.lower = 0.0, .lower_open = true};
 inline constexpr Interval non_negative{.lower = 0.0};
 inline constexpr Interval negative{.upper = 0.0, .upper_open = true};
 inline constexpr Interval fraction{.lower = 0.0, .upper = 1.0};
-constexpr Interval between(double lower, double upper) { return {.lower = lower, .upper = upper}; }
-constexpr Interval at_least(double lower) { return {.lower = lower}; }
+constexpr Interval between(double lower, double upper) {
+  return {.lower = lower, .upper = upper};
+}
+constexpr Interval at_least(double lower) {
+  return {.lower = lower};
+}
 
 /// A quantity given by a table: piecewise linear between its knots, constant outside. x increases strictly.
 struct Table {

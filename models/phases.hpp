@@ -32,11 +32,11 @@ void kinematics(const M& material, Batch<Real>& batch, double dt) {
   for (Point<Real>& p : batch) {
     State<Real>& s = p.state;
     const Tensor<Real> A = Real(dt) * p.velocity_gradient;
-    const Tensor<Real> dF = exponential(A);
+    const Tensor<Real> B = exponential_minus_identity(A), dF = Tensor<Real>::identity() + B;
     p.trouble = Real(0.0);
-    report(p, norm(A) > 0.5, Trouble::increment_too_large);
+    report(p, double_dot(A, A) > 0.25, Trouble::increment_too_large);
     if (material.objective_rate == ObjectiveRate::incremental_rotation) {
-      const PolarIncrement<Real> polar = polar_increment(dF);
+      const PolarIncrement<Real> polar = polar_increment(B);
       report(p, polar.size > 0.3, Trouble::increment_too_large);
       p.rotation = polar.rotation, p.strain_increment = polar.strain;
     } else {
@@ -73,8 +73,8 @@ void shear_modulus(const M& material, Batch<Real>& batch) {
   visit_law(material.shear_modulus, [&](const auto& law) {
     for (Point<Real>& p : batch) {
       State<Real>& s = p.state;
-      const Real mu = law(shear_modulus::Arguments<Real>{s.temperature, p.melting_temperature, p.pressure_before, p.metal_density,
-                                                         p.metal_density * (1.0 / material.density)});
+      const Real mu = law(shear_modulus::Arguments<Real>{s.temperature, p.melting_temperature, p.pressure_before,
+                                                         p.metal_density, p.metal_density * (1.0 / material.density)});
       const mask_of<Real> melted = s.temperature >= p.melting_temperature;
       const Real now = select(melted, Real(0.0), max(mu, Real(0.0)));
       const mask_of<Real> carries = s.shear_modulus > 0.0;
@@ -109,8 +109,7 @@ void elastic_trial(const M& material, Batch<Real>& batch) {
       p.bulk_modulus = rho * equation_of_state::sound_speed_squared(law, rho, e);
       const Real trial = law.pressure(rho, e);
       if constexpr (Law::caloric == Caloric::incremental)
-        p.trial_pressure =
-            p.pressure_before + trial - law.pressure(p.metal_density_before, e);
+        p.trial_pressure = p.pressure_before + trial - law.pressure(p.metal_density_before, e);
       else
         p.trial_pressure = trial;
     }
@@ -133,9 +132,10 @@ Trial<Real> trial_of(const Point<Real>& p, double dt) {
   trial.equivalent_stress = equivalent_stress(p.deviator);
   trial.mean_stress = -p.trial_pressure;
   trial.shear_modulus = s.shear_modulus, trial.bulk_modulus = p.bulk_modulus;
-  trial.at = {s.plastic_strain, Real(0.0), s.temperature, p.melting_temperature, s.shear_modulus, p.pressure_before, p.metal_density};
+  trial.at = {s.plastic_strain, Real(0.0),         s.temperature,  p.melting_temperature,
+              s.shear_modulus,  p.pressure_before, p.metal_density};
   trial.flow_history = s.flow_history, trial.porosity = s.porosity;
-  trial.time_step = Real(dt), trial.last_rate = s.plastic_strain_rate;
+  trial.inverse_time_step = Real(1.0 / dt), trial.last_rate = s.plastic_strain_rate;
   return trial;
 }
 
@@ -165,7 +165,7 @@ Returned<Real> return_in_parts(const Surface& surface, const Law& law, const por
     mask_of<Real> good = active;
     const double share = 1.0 / parts;
     const SymmetricTensor<Real> increment = Real(share) * (trial_deviator - start);
-    part.time_step = Real(dt * share);
+    part.inverse_time_step = Real(parts / dt);
     for (int i = 0; i < parts; ++i) {
       s = s + increment;
       part.equivalent_stress = equivalent_stress(s);
@@ -178,7 +178,7 @@ Returned<Real> return_in_parts(const Surface& surface, const Law& law, const por
       strain = strain + r.plastic_strain_increment, volume = volume + r.plastic_volume_increment, work = work + r.plastic_work;
       part.at.plastic_strain = part.at.plastic_strain + r.plastic_strain_increment;
       part.flow_history = r.flow_history, part.porosity = r.porosity;
-      part.last_rate = r.plastic_strain_increment / part.time_step;
+      part.last_rate = r.plastic_strain_increment * part.inverse_time_step;
     }
     r.plastic_strain_increment = strain, r.plastic_volume_increment = volume, r.plastic_work = work;
     r.converged = good;
@@ -213,8 +213,8 @@ void return_mapping(const M& material, Batch<Real>& batch, double dt) {
         } else {
           const Trial<Real> trial = detail::trial_of(p, dt);
           end = return_to_surface(surface, law, nucleation, trial);
-          p.deviator = select(end.plastic_strain_increment > 0.0, end.equivalent_stress / max(trial.equivalent_stress, Real(1e-300)),
-                              Real(1.0)) *
+          p.deviator = select(end.plastic_strain_increment > 0.0,
+                              end.equivalent_stress / max(trial.equivalent_stress, Real(1e-300)), Real(1.0)) *
                        p.deviator;
         }
         report(p, !end.converged, Trouble::yield_not_converged);
@@ -290,7 +290,8 @@ void pressure(const M& material, Batch<Real>& batch) {
       State<Real>& s = p.state;
       const Real rho = p.metal_density;
       const Real volume_change = 1.0 / s.density - 1.0 / p.density_before;
-      const Real deviatoric_work = double_dot(p.deviator_before + p.deviator, p.strain_increment) / (s.density + p.density_before);
+      const Real deviatoric_work =
+          double_dot(p.deviator_before + p.deviator, p.strain_increment) / (s.density + p.density_before);
       const Real energy_but_p = s.energy + deviatoric_work - (0.5 * p.pressure_before + p.artificial_viscosity) * volume_change;
       if constexpr (Law::caloric == Caloric::incremental)
         p.pressure = p.pressure_before + law.pressure(rho, s.energy) - law.pressure(p.metal_density_before, s.energy);
@@ -300,7 +301,8 @@ void pressure(const M& material, Batch<Real>& batch) {
         // p = p(rho, e - p dV/2): one Newton step is exact for the laws linear in e.
         mask_of<Real> active(true);
         for (int i = 0; i < 12 && any(active); ++i) {
-          const auto value = law.pressure(Dual<Real>(rho), Dual<Real>::variable(energy_but_p - 0.5 * p.pressure * volume_change));
+          const auto value =
+              law.pressure(Dual<Real>(rho), Dual<Real>::variable(energy_but_p - 0.5 * p.pressure * volume_change));
           const Real step = (value.value - p.pressure) / (1.0 + 0.5 * volume_change * value.derivative[0]);
           p.pressure = select(active, p.pressure + step, p.pressure);
           active = active & (abs(step) > 1e-13 * (abs(p.pressure) + 1e-9 * p.bulk_modulus));
@@ -451,8 +453,8 @@ void failure(const M& material, Batch<Real>& batch) {
       using Law = std::decay_t<decltype(law)>;
       for (Point<Real>& p : batch) {
         State<Real>& s = p.state;
-        failure::Arguments<Real> at{s.temperature, p.melting_temperature, s.plastic_strain,   s.damage,
-                                    s.porosity,    Real(0.0),             p.stability_margin, -p.pressure};
+        failure::Arguments<Real> at{s.temperature, p.melting_temperature, s.plastic_strain, s.damage, s.porosity,
+                                    Real(0.0),     p.stability_margin,    -p.pressure};
         visit_law(material.yield, [&](const auto& surface) { at.capacity_used = detail::capacity_used(surface, s.porosity); });
         const mask_of<Real> fails = (law(at) >= 0.0) & (s.failure_cause == 0.0);
         s.failure_cause = select(fails, Real(static_cast<double>(Law::cause)), s.failure_cause);

@@ -21,8 +21,8 @@ struct Trial {
   flow_stress::Arguments<Real> at;   // of the flow stress, at the start of the step; its rate is not used
   Real flow_history;
   Real porosity;
-  Real time_step;                    // s
-  Real last_rate;                    // 1/s, plastic strain rate of the previous step: where the search starts
+  Real inverse_time_step;  // 1/s
+  Real last_rate;          // 1/s, plastic strain rate of the previous step: where the search starts
 };
 
 /// Where it ends.
@@ -45,7 +45,7 @@ template <class Law, class Number, class Real>
 auto flow_stress_after(const Law& law, const Trial<Real>& trial, const Number& x) {
   flow_stress::Arguments<Number> at;
   at.plastic_strain = trial.at.plastic_strain + x;
-  at.plastic_strain_rate = x / Number(trial.time_step);
+  at.plastic_strain_rate = x * Number(trial.inverse_time_step);
   at.temperature = Number(trial.at.temperature);
   at.melting_temperature = Number(trial.at.melting_temperature);
   at.shear_modulus = Number(trial.at.shear_modulus);
@@ -60,8 +60,8 @@ inline constexpr double imperceptible = 1e-18;
 /// Inside the yield surface: everything stays as it is.
 template <class Real>
 Returned<Real> elastic(const Trial<Real>& trial, const Real& flow_stress) {
-  return {trial.equivalent_stress, trial.mean_stress, Real(0.0), Real(0.0), Real(0.0), flow_stress, trial.flow_history,
-          trial.porosity, mask_of<Real>(true)};
+  return {trial.equivalent_stress, trial.mean_stress, Real(0.0),          Real(0.0), Real(0.0), flow_stress,
+          trial.flow_history,      trial.porosity,    mask_of<Real>(true)};
 }
 
 template <class Real>
@@ -87,7 +87,8 @@ Returned<Real> return_to_matrix_stress(const Law& law, const Trial<Real>& trial,
   constexpr double tolerance = 1e-10, round_off = 1e-15;  // of the flow stress; of the trial stress
   const Real q = trial.equivalent_stress, stiffness = 3.0 * trial.shear_modulus;
   const Real upper = q / max(stiffness, Real(1e-300));
-  const Real first_guess = select(trial.last_rate > 0.0, trial.last_rate * trial.time_step, (q - inside.flow_stress) / max(stiffness, Real(1e-300)));
+  const Real first_guess = select(trial.last_rate > 0.0, trial.last_rate / trial.inverse_time_step,
+                                  (q - inside.flow_stress) / max(stiffness, Real(1e-300)));
 
   Real lo(0.0), hi = upper, x = min(first_guess, 0.999 * upper), last_residual(1e300);
   Returned<Real> result = inside;
@@ -144,7 +145,8 @@ inline porosity::ChuNeedleman nucleation_of(const std::optional<Porosity>& poros
 }
 
 template <class Law, class Real>
-Returned<Real> return_to_surface(const yield::VonMises&, const Law& law, const porosity::ChuNeedleman&, const Trial<Real>& trial) {
+Returned<Real> return_to_surface(const yield::VonMises&, const Law& law, const porosity::ChuNeedleman&,
+                                 const Trial<Real>& trial) {
   const Real quasi_static = detail::flow_stress_after(law, trial, Real(0.0)).flow_stress;
   const auto inside = detail::elastic(trial, quasi_static);
   const mask_of<Real> plastic = trial.equivalent_stress > quasi_static;
@@ -164,7 +166,7 @@ struct PorousReturn {
   const Law& law;
   const porosity::ChuNeedleman& nucleation;
   const Trial<Real>& trial;
-  Real sign;                    // of the plastic volume strain
+  Real sign;  // of the plastic volume strain
   mask_of<Real> nucleating;
 
   template <class Number>
@@ -204,24 +206,30 @@ Returned<Real> return_to_surface(const yield::GursonTvergaardNeedleman& surface,
   const auto inside = detail::elastic(trial, Y0);
   const Real safe_Y0 = max(Y0, Real(1e-30));
   const Real f_star = surface.effective_porosity(trial.porosity);
-  const Real q = trial.equivalent_stress, mean = trial.mean_stress;
+  const Real q_trial = trial.equivalent_stress, mean = trial.mean_stress;
   const Real z0 = clamp(1.5 * surface.q2 * mean / safe_Y0, -300.0, 300.0);
   const Real size0 = 1.0 + surface.q3 * f_star * f_star - 2.0 * surface.q1 * f_star * cosh(z0);
   // A melt carries no shear: its yield surface is left alone.
-  const mask_of<Real> yields = (Y0 > 0.0) & (trial.shear_modulus > 0.0) & (q * q > Y0 * Y0 * size0);
+  const mask_of<Real> yields = (Y0 > 0.0) & (trial.shear_modulus > 0.0) & (q_trial * q_trial > Y0 * Y0 * size0);
 
   // Without voids, and where the reference option asks for it, the return ends on q = Y.
   using Mask = mask_of<Real>;
   Mask porous_return = trial.porosity > 1e-14;
   if (nucleation.volume_fraction > 0.0) porous_return = Mask(true);
   if (surface.return_to == yield::ReturnTo::matrix_stress) porous_return = Mask(false);
-  const Mask to_matrix = yields & (!porous_return) & (q > Y0), to_surface = yields & porous_return;
+  const Mask to_matrix = yields & (!porous_return) & (q_trial > Y0), to_surface = yields & porous_return;
   Returned<Real> result = inside;
   if (any(to_matrix)) result = detail::return_to_matrix_stress(law, trial, to_matrix, inside);
   if (none(to_surface)) return result;
 
   const Real sign = select(mean < 0.0, Real(-1.0), Real(1.0));
-  const detail::PorousReturn<Law, Real> porous{surface, law, nucleation, trial, sign, nucleates(nucleation, mean)};
+  // At its tips on the axis of mean stress the surface has no normal to follow. A trial without shear is given a little, which
+  // moves the mean stress by the square of this part of the flow stress, and is taken away again at the end.
+  constexpr double least_shear = 1e-5;
+  Trial<Real> sheared = trial;
+  sheared.equivalent_stress = max(trial.equivalent_stress, least_shear * Y0);
+  const Real q = sheared.equivalent_stress, taken_away = trial.equivalent_stress / q;
+  const detail::PorousReturn<Law, Real> porous{surface, law, nucleation, sheared, sign, nucleates(nucleation, mean)};
   const Real stiffness = 3.0 * max(trial.shear_modulus, Real(1e-300)), bulk = max(trial.bulk_modulus, Real(1e-300));
   const Real u_most = abs(mean) / bulk;
   const Real strain_scale = q / stiffness + u_most;
@@ -230,7 +238,7 @@ Returned<Real> return_to_surface(const yield::GursonTvergaardNeedleman& surface,
   const auto accept = [&](const auto& where, const Real& x, const Real& u) {
     const auto at = porous(x, u);
     Returned<Real> end;
-    end.equivalent_stress = at.q, end.mean_stress = at.mean;
+    end.equivalent_stress = at.q * taken_away, end.mean_stress = at.mean;
     end.plastic_strain_increment = x, end.plastic_volume_increment = sign * u;
     end.plastic_work = (1.0 - at.porosity) * at.Y * x;
     end.flow_stress = at.Y, end.flow_history = at.history, end.porosity = at.porosity;
@@ -242,7 +250,7 @@ Returned<Real> return_to_surface(const yield::GursonTvergaardNeedleman& surface,
   // from the strain of the previous step, where there was one, and from a mean stress of at most 0.8 of the hydrostatic
   // limit of the surface at that strain.
   using Number = Dual<Real, 2>;
-  const Real x_before = trial.last_rate * trial.time_step;
+  const Real x_before = trial.last_rate / trial.inverse_time_step;
   const Real Y = max(detail::flow_stress_after(law, trial, min(x_before, strain_scale)).flow_stress, Real(1e-30));
   const Real ratio = max((1.0 + surface.q3 * f_star * f_star) / max(2.0 * surface.q1 * f_star, Real(1e-12)), Real(1.0));
   const Real limit = 0.8 * Y * (2.0 / (3.0 * surface.q2)) * log(ratio + sqrt(ratio * ratio - 1.0));
@@ -252,7 +260,8 @@ Returned<Real> return_to_surface(const yield::GursonTvergaardNeedleman& surface,
       1.0 + surface.q3 * f_star * f_star - 2.0 * surface.q1 * f_star * cosh(1.5 * surface.q2 * mean_start / Y);
   const Real q_start = min(Y * sqrt(max(size_start, Real(0.0))), q);
   // The work done on that surface bounds x from above, but for softening.
-  const Real x_most = (q_start * (q - q_start) / stiffness + mean_start * u) / (Y * (1.0 - trial.porosity)) + 1e-12 * strain_scale;
+  const Real x_most =
+      (q_start * (q - q_start) / stiffness + mean_start * u) / (Y * (1.0 - trial.porosity)) + 1e-12 * strain_scale;
   Real x = select((x_before > 1e-3 * x_most) & (x_before < 1e3 * x_most), min(x_before, strain_scale), 0.5 * x_most);
   Real base_x = x, base_u = u, step_x(0.0), step_u(0.0), part(1.0), merit(1e300);
   mask_of<Real> active = to_surface;
@@ -263,16 +272,18 @@ Returned<Real> return_to_surface(const yield::GursonTvergaardNeedleman& surface,
     const mask_of<Real> valid = (at.surface_size.value > 1e-13) & (q - at.q.value >= -1e-9 * q);
     const mask_of<Real> better = valid & (new_merit < merit);
     const mask_of<Real> done = valid & (abs(r1) <= tolerance * at.normality_size.value + round_off * strain_scale) &
-                      (abs(r2) <= tolerance * at.work_size.value + round_off * strain_scale);
+                               (abs(r2) <= tolerance * at.work_size.value + round_off * strain_scale);
     const mask_of<Real> finished = active & done;
     if (any(finished)) accept(finished, x, u);
     active = active & (!done);
 
-    const Real a = at.normality.derivative[0], b = at.normality.derivative[1], c = at.work.derivative[0], d = at.work.derivative[1];
+    const Real a = at.normality.derivative[0], b = at.normality.derivative[1], c = at.work.derivative[0],
+               d = at.work.derivative[1];
     const Real det = a * d - b * c;
     const Real safe_det = select(abs(det) > 1e-300, det, Real(1e-300));
     base_x = select(better, x, base_x), base_u = select(better, u, base_u);
-    step_x = select(better, (b * r2 - d * r1) / safe_det, step_x), step_u = select(better, (c * r1 - a * r2) / safe_det, step_u);
+    step_x = select(better, (b * r2 - d * r1) / safe_det, step_x),
+    step_u = select(better, (c * r1 - a * r2) / safe_det, step_u);
     merit = select(better, new_merit, merit);
     part = select(better, Real(1.0), 0.5 * part);
     // Before the first valid point: less strain hardens less, more volume strain relieves the mean stress.

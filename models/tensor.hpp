@@ -103,13 +103,11 @@ SymmetricTensor<Real> select(const mask_of<Real>& m, const SymmetricTensor<Real>
 
 template <class Real>
 Tensor<Real> operator+(const Tensor<Real>& a, const Tensor<Real>& b) {
-  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yx + b.yx, a.yy + b.yy,
-          a.yz + b.yz, a.zx + b.zx, a.zy + b.zy, a.zz + b.zz};
+  return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz, a.yx + b.yx, a.yy + b.yy, a.yz + b.yz, a.zx + b.zx, a.zy + b.zy, a.zz + b.zz};
 }
 template <class Real>
 Tensor<Real> operator-(const Tensor<Real>& a, const Tensor<Real>& b) {
-  return {a.xx - b.xx, a.xy - b.xy, a.xz - b.xz, a.yx - b.yx, a.yy - b.yy,
-          a.yz - b.yz, a.zx - b.zx, a.zy - b.zy, a.zz - b.zz};
+  return {a.xx - b.xx, a.xy - b.xy, a.xz - b.xz, a.yx - b.yx, a.yy - b.yy, a.yz - b.yz, a.zx - b.zx, a.zy - b.zy, a.zz - b.zz};
 }
 template <class Real>
 Tensor<Real> operator*(const std::type_identity_t<Real>& f, const Tensor<Real>& a) {
@@ -155,11 +153,16 @@ Tensor<Real> inverse(const Tensor<Real>& a) {
           r * (a.yz * a.zx - a.yx * a.zz), r * (a.xx * a.zz - a.xz * a.zx), r * (a.xz * a.yx - a.xx * a.yz),
           r * (a.yx * a.zy - a.yy * a.zx), r * (a.xy * a.zx - a.xx * a.zy), r * (a.xx * a.yy - a.xy * a.yx)};
 }
-/// |a| = sqrt(sum of squares of the components)
+/// a : b
+template <class Real>
+Real double_dot(const Tensor<Real>& a, const Tensor<Real>& b) {
+  return a.xx * b.xx + a.xy * b.xy + a.xz * b.xz + a.yx * b.yx + a.yy * b.yy + a.yz * b.yz + a.zx * b.zx + a.zy * b.zy +
+         a.zz * b.zz;
+}
+/// |a| = sqrt(a : a)
 template <class Real>
 Real norm(const Tensor<Real>& a) {
-  return sqrt(a.xx * a.xx + a.xy * a.xy + a.xz * a.xz + a.yx * a.yx + a.yy * a.yy + a.yz * a.yz + a.zx * a.zx +
-              a.zy * a.zy + a.zz * a.zz);
+  return sqrt(double_dot(a, a));
 }
 /// a a^T
 template <class Real>
@@ -178,9 +181,8 @@ SymmetricTensor<Real> rotate(const Tensor<Real>& R, const SymmetricTensor<Real>&
 }
 template <class Real>
 Tensor<Real> select(const mask_of<Real>& m, const Tensor<Real>& a, const Tensor<Real>& b) {
-  return {select(m, a.xx, b.xx), select(m, a.xy, b.xy), select(m, a.xz, b.xz),
-          select(m, a.yx, b.yx), select(m, a.yy, b.yy), select(m, a.yz, b.yz),
-          select(m, a.zx, b.zx), select(m, a.zy, b.zy), select(m, a.zz, b.zz)};
+  return {select(m, a.xx, b.xx), select(m, a.xy, b.xy), select(m, a.xz, b.xz), select(m, a.yx, b.yx), select(m, a.yy, b.yy),
+          select(m, a.yz, b.yz), select(m, a.zx, b.zx), select(m, a.zy, b.zy), select(m, a.zz, b.zz)};
 }
 
 }  // namespace brisance

@@ -30,10 +30,13 @@ struct ClosedForm {
   }
 };
 
-double constant_of(const Material& material, double heat) { return material.density * heat; }
+double constant_of(const Material& material, double heat) {
+  return material.density * heat;
+}
 
 Panel closed_form(std::vector<Check>& checks) {
-  Panel panel{.title = "4340 steel with m = 1, 1000 /s, volume kept", .x_label = "plastic strain", .y_label = "temperature (K)"};
+  Panel panel{
+      .title = "4340 steel with m = 1, 1000 /s, volume kept", .x_label = "plastic strain", .y_label = "temperature (K)"};
   Material material = read("steel_4340");
   auto& law = std::get<flow_stress::JohnsonCook>(*material.flow_stress);
   law.m = 1.0;
@@ -79,15 +82,18 @@ void real_metal(std::string_view title, const Material& material, double largest
   int colour = 0;
   for (const double rate : {1e4, 1e2, 1.0}) {
     const Run run = follow(material, constant_volume(rate, 298.0, largest_strain));
-    temperature.curves.push_back(curve(fmt::format("{:g} /s", rate), run["plastic_strain"], run["temperature"], 1.0, 1.0, Mark::line, colour));
-    stress.curves.push_back(curve(fmt::format("{:g} /s", rate), run["plastic_strain"], run["equivalent_stress"], 1.0, 1e-6, Mark::line, colour));
+    temperature.curves.push_back(
+        curve(fmt::format("{:g} /s", rate), run["plastic_strain"], run["temperature"], 1.0, 1.0, Mark::line, colour));
+    stress.curves.push_back(
+        curve(fmt::format("{:g} /s", rate), run["plastic_strain"], run["equivalent_stress"], 1.0, 1e-6, Mark::line, colour));
     Curve hot{colour == 2 ? "rate form" : "", {}, {}, Mark::points, colour}, strong = hot;
     State<double> state = run.outcome.start;
     constexpr int points = 8;
     const std::size_t steps = run.outcome.taken.size();
     for (int i = 0; i < points; ++i) {
       const std::size_t from = i * steps / points, to = (i + 1) * steps / points;
-      state = driver::integrate_rate_form(material, state, std::span(run.outcome.taken).subspan(from, to - from), {.tolerance = 1e-8});
+      state = driver::integrate_rate_form(material, state, std::span(run.outcome.taken).subspan(from, to - from),
+                                          {.tolerance = 1e-8});
       hot.x.push_back(state.plastic_strain), hot.y.push_back(state.temperature);
       strong.x.push_back(state.plastic_strain), strong.y.push_back(1e-6 * equivalent_stress(deviator(state.stress)));
       worst = std::max(worst, std::abs(run["temperature"][to] - state.temperature));
@@ -99,17 +105,22 @@ void real_metal(std::string_view title, const Material& material, double largest
   driver::LoadingPath cold = constant_volume(1e4, 298.0, largest_strain);
   cold.heat = driver::Heat::isothermal;
   const Run run = follow(material, cold);
-  stress.curves.push_back(curve("10^4 /s, isothermal", run["plastic_strain"], run["equivalent_stress"], 1.0, 1e-6, Mark::dashed, 6));
+  stress.curves.push_back(
+      curve("10000 /s, isothermal", run["plastic_strain"], run["equivalent_stress"], 1.0, 1e-6, Mark::dashed, 6));
   stress.legend = "bottom right";
-  checks.push_back({fmt::format("{}: largest temperature difference at 1, 100, 10^4 /s", title), "rate form, error control 1e-8", worst, 0.2, "K"});
+  checks.push_back({fmt::format("{}: largest temperature difference at 1, 100, 10000 /s", title),
+                    "rate form, error control 1e-8", worst, 0.2, "K"});
 }
 
 }  // namespace
 
 Picture adiabatic_temperature() {
   Picture picture;
-  picture.figure = {.title = "Temperature rise by plastic work, nine tenths of it heat", .panels = {}, .columns = 3,
-                    .panel_width = 470, .panel_height = 420};
+  picture.figure = {.title = "Temperature rise by plastic work, nine tenths of it heat",
+                    .panels = {},
+                    .columns = 3,
+                    .panel_width = 470,
+                    .panel_height = 420};
   std::vector<Panel> panels(4);
   panels[0] = closed_form(picture.checks);
   real_metal("4340 steel", read("steel_4340"), 0.8, panels[1], panels[2], picture.checks);

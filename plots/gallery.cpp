@@ -64,8 +64,8 @@ void write_table(const std::vector<Row>& rows, const std::filesystem::path& path
     out.print("# What the figures of the gallery verify\n\nWritten by `./bootstrap.sh validate`.\n\n");
     out.print("| figure | quantity | reference | measured | tolerance | result |\n|---|---|---|---|---|---|\n");
     for (const Row& row : rows)
-      out.print("| {} | {} | {} | {} | {} | {} |\n", row.figure, row.check.quantity, row.check.reference, row.value(), row.limit(),
-                row.verdict());
+      out.print("| {} | {} | {} | {} | {} | {} |\n", row.figure, row.check.quantity, row.check.reference, row.value(),
+                row.limit(), row.verdict());
   });
   fmt::print("table: {}\n", path.string());
 }

@@ -24,11 +24,13 @@ constexpr double room = 298.0;
 
 struct Measured {
   std::string title;
+  Mark mark;
+  int colour;
   std::vector<double> volume, pressure;  // V/V0, Pa
 };
-Measured measured(std::string title, std::string_view folder) {
+Measured measured(std::string title, Mark mark, int colour, std::string_view folder) {
   const CsvFile csv = CsvFile::load(data_folder() / "experiments" / folder / "hugoniot.csv");
-  return {std::move(title), csv.numbers("volume_ratio", Unit::one), csv.numbers("pressure", Unit::Pa)};
+  return {std::move(title), mark, colour, csv.numbers("volume_ratio", Unit::one), csv.numbers("pressure", Unit::Pa)};
 }
 
 /// The pressure behind a shock by a single step of the update from rest: its energy balance over a step is the jump condition.
@@ -56,7 +58,8 @@ struct Models {
 
 Models aluminium_models() {
   const auto thermal = std::get<MieGruneisenTemperature>(read("aluminium_6061_t6_johnson_cook").equation_of_state);
-  return {thermal, {thermal.reference_density, thermal.sound_speed, thermal.slope, thermal.gruneisen, thermal.specific_heat, room}};
+  return {thermal,
+          {thermal.reference_density, thermal.sound_speed, thermal.slope, thermal.gruneisen, thermal.specific_heat, room}};
 }
 
 Panel pressure_and_volume(const Models& models, const std::vector<Measured>& data, std::vector<Check>& checks) {
@@ -64,7 +67,8 @@ Panel pressure_and_volume(const Models& models, const std::vector<Measured>& dat
   panel.legend = "top right";
   panel.x_range = {0.54, 1.0}, panel.y_range = {0.0, 260.0};
   Curve energy{"energy form", {}, {}, Mark::line, 0}, thermal{"temperature form", {}, {}, Mark::dashed, 1},
-      cold{"temperature form, unheated", {}, {}, Mark::dashed, 5}, steps{"energy form, one step of the update", {}, {}, Mark::points, 6};
+      cold{"temperature form, unheated", {}, {}, Mark::dashed, 5},
+      steps{"energy form, one step of the update", {}, {}, Mark::points, 6};
   double worst = 0.0;
   for (const double V : evenly(0.999, 0.55, 100)) {
     energy.x.push_back(V), energy.y.push_back(1e-9 * models.shock(models.energy, V));
@@ -82,8 +86,8 @@ Panel pressure_and_volume(const Models& models, const std::vector<Measured>& dat
     step_error = std::max(step_error, std::abs(p / models.exact(V) - 1.0));
   }
   panel.curves = {energy, thermal, cold, steps};
-  int colour = 2;
-  for (const Measured& set : data) panel.curves.push_back(curve(set.title, set.volume, set.pressure, 1.0, 1e-9, Mark::points, colour++));
+  for (const Measured& set : data)
+    panel.curves.push_back(curve(set.title, set.volume, set.pressure, 1.0, 1e-9, set.mark, set.colour));
   checks.push_back({"energy form: largest relative error of the shock pressure", "rho0 c0^2 x/(1 - s x)^2", worst, 1e-10});
   checks.push_back({"one step of the update: relative error", "rho0 c0^2 x/(1 - s x)^2", step_error, 1e-10});
   return panel;
@@ -101,9 +105,8 @@ Panel shock_and_particle_velocity(const Models& models, const std::vector<Measur
   }
   panel.curves = {energy, thermal};
   panel.x_range = {0.0, 6.0};
-  int colour = 2;
   for (const Measured& set : data) {
-    Curve dots{set.title, {}, {}, Mark::points, colour++};
+    Curve dots{set.title, {}, {}, set.mark, set.colour};
     for (std::size_t i = 0; i < set.volume.size(); ++i) {
       const double x = 1.0 - set.volume[i];
       dots.x.push_back(1e-3 * std::sqrt(set.pressure[i] * x / models.density()));
@@ -115,12 +118,12 @@ Panel shock_and_particle_velocity(const Models& models, const std::vector<Measur
 }
 
 Panel deviations(const Models& models, const std::vector<Measured>& data, std::vector<Check>& checks) {
-  Panel panel{.title = "data against the energy form", .x_label = "pressure (GPa)", .y_label = "(computed − measured) / measured (%)"};
+  Panel panel{
+      .title = "data against the energy form", .x_label = "pressure (GPa)", .y_label = "(computed − measured) / measured (%)"};
   panel.legend = "top right";
   panel.y_range = {-20.0, 20.0};
-  int colour = 2;
   for (const Measured& set : data) {
-    Curve dots{set.title, {}, {}, Mark::points, colour++};
+    Curve dots{set.title, {}, {}, set.mark, set.colour};
     double mean = 0.0, squares = 0.0, thermal = 0.0;
     for (std::size_t i = 0; i < set.volume.size(); ++i) {
       const double error = models.exact(set.volume[i]) / set.pressure[i] - 1.0;
@@ -141,8 +144,10 @@ Panel deviations(const Models& models, const std::vector<Measured>& data, std::v
 
 /// The products of PBX 9501 from their Chapman-Jouguet volume to ten times that of the explosive.
 Panel expansion(std::vector<Check>& checks) {
-  Panel panel{.title = "PBX 9501 products, isentrope from the Chapman-Jouguet state", .x_label = "V = ρ_0 / ρ", .y_label = "log_{10} (p / GPa)"};
-  panel.logarithmic_x = true;
+  Panel panel{.title = "PBX 9501 products, isentrope from the Chapman-Jouguet state",
+              .x_label = "V = ρ_0 / ρ",
+              .y_label = "pressure (GPa)"};
+  panel.logarithmic_x = panel.logarithmic_y = true;
   panel.legend = "top right";
   panel.x_range = {0.7, 12.0};
   const Material products = read("pbx_9501_products");
@@ -166,11 +171,11 @@ Panel expansion(std::vector<Check>& checks) {
   double worst = 0.0;
   for (std::size_t i = 0; i < run["density"].size(); ++i) {
     volume.push_back(rho0 / run["density"][i]);
-    computed.push_back(std::log10(1e-9 * run["pressure"][i]));
-    closed.push_back(std::log10(1e-9 * isentrope(volume.back())));
+    computed.push_back(1e-9 * run["pressure"][i]);
+    closed.push_back(1e-9 * isentrope(volume.back()));
     worst = std::max(worst, std::abs(run["pressure"][i] / isentrope(volume.back()) - 1.0));
   }
-  panel.curves = {curve("A e^{-R_1 V} + B e^{-R_2 V} + C V^{-1-ω}", volume, closed, 1.0, 1.0, Mark::line, 0),
+  panel.curves = {curve("A exp(-R1 V) + B exp(-R2 V) + C V^(-1-ω)", volume, closed, 1.0, 1.0, Mark::line, 0),
                   curve("update", volume, computed, 1.0, 1.0, Mark::points, 1, 25)};
   checks.push_back({"JWL expansion to V = 10: largest relative error of p", "isentrope in closed form", worst, 1e-4});
   return panel;
@@ -180,11 +185,15 @@ Panel expansion(std::vector<Check>& checks) {
 
 Picture hugoniot() {
   const Models models = aluminium_models();
-  const std::vector<Measured> data{measured("McQueen et al. 1970", "mcqueen_1970_aluminium_hugoniot"),
-                                   measured("Mitchell & Nellis 1981", "mitchell_1981_aluminium_hugoniot")};
+  const std::vector<Measured> data{measured("McQueen et al. 1970", Mark::points, 2, "mcqueen_1970_aluminium_hugoniot"),
+                                   measured("Mitchell & Nellis 1981", Mark::squares, 3, "mitchell_1981_aluminium_hugoniot")};
   Picture picture;
-  picture.figure = {.title = "Shocks in aluminium: Mie-Grueneisen with Us = 5.24 km/s + 1.40 up; expansion of detonation products",
-                    .panels = {}, .columns = 2, .panel_width = 600, .panel_height = 430};
+  picture.figure = {
+      .title = "Shocks in aluminium: Mie-Grueneisen with Us = 5.24 km/s + 1.40 up; expansion of detonation products",
+      .panels = {},
+      .columns = 2,
+      .panel_width = 600,
+      .panel_height = 430};
   picture.figure.panels.push_back(pressure_and_volume(models, data, picture.checks));
   picture.figure.panels.push_back(shock_and_particle_velocity(models, data));
   picture.figure.panels.push_back(deviations(models, data, picture.checks));

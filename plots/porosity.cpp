@@ -51,7 +51,7 @@ Panel growth(std::vector<Check>& checks) {
       closed.push_back(1.0 - (1.0 - f0) * std::exp(-volume[i]));
       worst = std::max(worst, std::abs(f[i] - closed[i]));
     }
-    panel.curves.push_back(curve(fmt::format("f_0 = {:g}", f0), volume, closed, 1.0, 1.0, Mark::line, colour));
+    panel.curves.push_back(curve(fmt::format("f0 = {:g}", f0), volume, closed, 1.0, 1.0, Mark::line, colour));
     panel.curves.push_back(curve("", volume, f, 1.0, 1.0, Mark::points, colour, 16));
     ++colour;
   }
@@ -61,8 +61,8 @@ Panel growth(std::vector<Check>& checks) {
 }
 
 Panel nucleation(std::vector<Check>& checks) {
-  Panel panel{.title = "nucleation in tension, none in compression", .x_label = "plastic strain of the matrix",
-              .y_label = "porosity"};
+  Panel panel{
+      .title = "nucleation in tension, none in compression", .x_label = "plastic strain of the matrix", .y_label = "porosity"};
   panel.y_range = {0.0, 0.1};
   Material material = porous_metal(1e9);
   material.yield = yield::VonMises{};  // no growth: what nucleates stays as it is
@@ -79,7 +79,7 @@ Panel nucleation(std::vector<Check>& checks) {
       closed.push_back(part(strain[i]) - part(0.0));
       worst = std::max(worst, std::abs(f[i] - closed[i]));
     }
-    panel.curves.push_back(curve(fmt::format("s_N = {:g}", deviation), strain, closed, 1.0, 1.0, Mark::line, colour));
+    panel.curves.push_back(curve(fmt::format("sN = {:g}", deviation), strain, closed, 1.0, 1.0, Mark::line, colour));
     panel.curves.push_back(curve("", strain, f, 1.0, 1.0, Mark::points, colour, 21));
     ++colour;
   }
@@ -100,9 +100,10 @@ Point<double> first_plastic_point(const Material& material, double porosity, dou
                               material.equation_of_state);
   // Elastic steps of q = 3 G e and sm = K v that reach Y in 400 of them.
   constexpr double share = 1.0 / 400.0;
-  const double stretch = share * std::cos(angle) * 1e9 / (3.0 * state.shear_modulus), volume = share * std::sin(angle) * 3e9 / K;
-  const Tensor<double> strain = to_tensor(SymmetricTensor<double>{stretch + volume / 3, -0.5 * stretch + volume / 3,
-                                                                   -0.5 * stretch + volume / 3, 0, 0, 0});
+  const double stretch = share * std::cos(angle) * 1e9 / (3.0 * state.shear_modulus),
+               volume = share * std::sin(angle) * 3e9 / K;
+  const Tensor<double> strain = to_tensor(
+      SymmetricTensor<double>{stretch + volume / 3, -0.5 * stretch + volume / 3, -0.5 * stretch + volume / 3, 0, 0, 0});
   constexpr double dt = 1e-7;
   for (int i = 1; i < 4000; ++i) {
     const Point<double>& point = update(state, (1.0 / dt) * strain, dt, i * dt);
@@ -130,7 +131,8 @@ Panel surfaces(std::vector<Check>& checks) {
   for (const double f : {0.001, 0.01, 0.05, 0.1}) {
     // The tip: cosh(3 q2 sm/(2 Y)) = (1 + q3 f*^2)/(2 q1 f*).
     const double f_star = surface.effective_porosity(f);
-    const double tip = 2.0 / (3.0 * surface.q2) * std::acosh((1.0 + surface.q3 * f_star * f_star) / (2.0 * surface.q1 * f_star));
+    const double tip =
+        2.0 / (3.0 * surface.q2) * std::acosh((1.0 + surface.q3 * f_star * f_star) / (2.0 * surface.q1 * f_star));
     Curve line{fmt::format("f = {:g}", f), {}, {}, Mark::line, colour}, points{"", {}, {}, Mark::points, colour};
     for (const double turn : evenly(-1.0, 1.0, 200)) {
       const double mean = tip * std::sin(0.5 * std::numbers::pi * turn);
@@ -154,8 +156,8 @@ Panel surfaces(std::vector<Check>& checks) {
 }
 
 Panel triaxialities(std::vector<Check>& checks) {
-  Panel panel{.title = "growth at constant triaxiality, f_0 = 0.005", .x_label = "plastic strain of the matrix",
-              .y_label = "porosity"};
+  Panel panel{
+      .title = "growth at constant triaxiality, f0 = 0.005", .x_label = "plastic strain of the matrix", .y_label = "porosity"};
   panel.y_range = {0.0, 0.05};
   panel.x_range = {0.0, 0.8};
   const Material material = porous_metal(1e9);
@@ -167,21 +169,24 @@ Panel triaxialities(std::vector<Check>& checks) {
     if (triaxiality > 0.9) path.segments[0].until = driver::Until{"porosity", 0.049};
     path.strain_increment = 2e-4;
     const Run run = follow(material, path);
-    panel.curves.push_back(curve(fmt::format("triaxiality {:.2g}", triaxiality), run["plastic_strain"], run["porosity"], 1.0, 1.0, Mark::line, colour));
+    panel.curves.push_back(curve(fmt::format("triaxiality {:.2g}", triaxiality), run["plastic_strain"], run["porosity"], 1.0,
+                                 1.0, Mark::line, colour));
     Curve dots{triaxiality < 0.9 ? "rate form" : "", {}, {}, Mark::points, colour};
     State<double> state = run.outcome.start;
     constexpr int stations = 6;
     const std::size_t steps = run.outcome.taken.size();
     for (int i = 0; i < stations; ++i) {
       const std::size_t from = i * steps / stations, to = (i + 1) * steps / stations;
-      state = driver::integrate_rate_form(material, state, std::span(run.outcome.taken).subspan(from, to - from), {.tolerance = 1e-8});
+      state = driver::integrate_rate_form(material, state, std::span(run.outcome.taken).subspan(from, to - from),
+                                          {.tolerance = 1e-8});
       dots.x.push_back(state.plastic_strain), dots.y.push_back(state.porosity);
       worst = std::max(worst, std::abs(run["porosity"][to] / state.porosity - 1.0));
     }
     panel.curves.push_back(std::move(dots));
     ++colour;
   }
-  checks.push_back({"constant triaxiality 1/3 to 3: largest relative difference of f", "rate form, error control 1e-8", worst, 0.01});
+  checks.push_back(
+      {"constant triaxiality 1/3 to 3: largest relative difference of f", "rate form, error control 1e-8", worst, 0.01});
   return panel;
 }
 
@@ -189,8 +194,11 @@ Panel triaxialities(std::vector<Check>& checks) {
 
 Picture porosity() {
   Picture picture;
-  picture.figure = {.title = "Porous metal: q1 = 1.5, q2 = 1, q3 = 2.25, coalescence from f = 0.05", .panels = {}, .columns = 2,
-                    .panel_width = 600, .panel_height = 430};
+  picture.figure = {.title = "Porous metal: q1 = 1.5, q2 = 1, q3 = 2.25, coalescence from f = 0.05",
+                    .panels = {},
+                    .columns = 2,
+                    .panel_width = 600,
+                    .panel_height = 430};
   for (const auto panel : {growth, nucleation, surfaces, triaxialities}) picture.figure.panels.push_back(panel(picture.checks));
   return picture;
 }

@@ -32,7 +32,9 @@ LoadingPath path_to(double plastic_strain, double temperature, PathSegment segme
 
 }  // namespace
 
-std::filesystem::path data_folder() { return BRISANCE_DATA; }
+std::filesystem::path data_folder() {
+  return BRISANCE_DATA;
+}
 
 Material read(std::string_view name) {
   Material material = read_material(data_folder() / "materials" / (std::string(name) + ".toml"));
@@ -82,8 +84,8 @@ Run follow(const Material& material, const LoadingPath& path) {
   return {history.record(), std::move(outcome)};
 }
 
-driver::Curve curve(std::string title, const std::vector<double>& x, const std::vector<double>& y, double x_factor, double y_factor,
-                    driver::Mark mark, int colour, std::size_t most) {
+driver::Curve curve(std::string title, const std::vector<double>& x, const std::vector<double>& y, double x_factor,
+                    double y_factor, driver::Mark mark, int colour, std::size_t most) {
   driver::Curve result{std::move(title), {}, {}, mark, colour};
   const std::size_t n = std::min(x.size(), most);
   for (std::size_t i = 0; i < n; ++i) {

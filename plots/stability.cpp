@@ -120,8 +120,8 @@ double least_determinant(const Stiffness& C) {
 
 struct Margins {
   Run run{};
-  std::vector<double> drucker{}, acoustic{};                           // the laws' own, step by step
-  std::vector<double> stations{}, drucker_search{}, acoustic_search{};   // from the tangent by differences
+  std::vector<double> drucker{}, acoustic{};                            // the laws' own, step by step
+  std::vector<double> stations{}, drucker_search{}, acoustic_search{};  // from the tangent by differences
   double disagreement = 0.0;
 };
 
@@ -185,11 +185,13 @@ driver::LoadingPath plane_strain_tension(double strain_rate, double temperature,
 }
 
 void von_mises(std::vector<Panel>& panels, std::vector<Check>& checks) {
-  Panel stress{.title = "4340 steel, von Mises: adiabatic curve in shear", .x_label = "plastic strain",
+  Panel stress{.title = "4340 steel, von Mises: adiabatic curve in shear",
+               .x_label = "plastic strain",
                .y_label = "equivalent stress (MPa)"};
   stress.legend = "bottom right";
   stress.y_range = {600.0, 1400.0};
-  Panel margin{.title = "margins at 298 K: points from the tangent by differences", .x_label = "plastic strain",
+  Panel margin{.title = "margins at 298 K: points from the tangent by differences",
+               .x_label = "plastic strain",
                .y_label = "margin (unstable below 0)"};
   margin.legend = "top right";
   margin.y_range = {-0.03, 0.3};
@@ -203,10 +205,12 @@ void von_mises(std::vector<Panel>& panels, std::vector<Check>& checks) {
     const double peak = strain[static_cast<std::size_t>(std::max_element(q.begin(), q.end()) - q.begin())];
     late = std::max(late, std::abs(first.value_or(1e3) - peak));
     stress.curves.push_back(curve(fmt::format("{:g} K", T0), strain, q, 1.0, 1e-6, Mark::line, colour));
-    mark(stress, fmt::format("Drucker, ep = {:.3f}", first.value_or(0.0)), first, 600.0, 1e-6 * *std::max_element(q.begin(), q.end()), colour);
+    mark(stress, fmt::format("Drucker, ep = {:.3f}", first.value_or(0.0)), first, 600.0,
+         1e-6 * *std::max_element(q.begin(), q.end()), colour);
     ++colour;
     if (T0 > 300.0) continue;
-    checks.push_back({"von Mises in shear: largest difference of a margin", "determinants of the tangent by differences", m.disagreement, 1e-3});
+    checks.push_back({"von Mises in shear: largest difference of a margin", "determinants of the tangent by differences",
+                      m.disagreement, 1e-3});
     margin.curves.push_back(without_elastic_part("shear: Drucker", m, m.drucker, Mark::line, 0));
     margin.curves.push_back(without_elastic_part("shear: acoustic", m, m.acoustic, Mark::dashed, 4));
     margin.curves.push_back({"", m.stations, m.acoustic_search, Mark::points, 4});
@@ -214,9 +218,11 @@ void von_mises(std::vector<Panel>& panels, std::vector<Check>& checks) {
   driver::LoadingPath cold = pure_shear(1e3, 298.0, 0.6);
   cold.heat = driver::Heat::isothermal;
   const Run run = follow(steel, cold);
-  stress.curves.push_back(curve("298 K, isothermal", run["plastic_strain"], run["equivalent_stress"], 1.0, 1e-6, Mark::line, 6));
+  stress.curves.push_back(
+      curve("298 K, isothermal", run["plastic_strain"], run["equivalent_stress"], 1.0, 1e-6, Mark::line, 6));
   const Margins tension = margins(steel, constant_volume(1e3, 298.0, 0.6));
-  checks.push_back({"von Mises in tension: largest difference of a margin", "determinants of the tangent by differences", tension.disagreement, 1e-3});
+  checks.push_back({"von Mises in tension: largest difference of a margin", "determinants of the tangent by differences",
+                    tension.disagreement, 1e-3});
   margin.curves.push_back(without_elastic_part("axial tension: acoustic", tension, tension.acoustic, Mark::line, 1));
   margin.curves.push_back({"", tension.stations, tension.acoustic_search, Mark::points, 1});
   margin.curves.push_back({"", {0.0, 0.6}, {0.0, 0.0}, Mark::line, 6});
@@ -229,23 +235,31 @@ void porous(std::vector<Panel>& panels, std::vector<Check>& checks) {
   const Margins m = margins(porous_4340(), plane_strain_tension(1e3, 298.0, 0.5));
   const std::vector<double>& strain = m.run["plastic_strain"];
   const auto first = onset(strain, m.drucker), second = onset(strain, m.acoustic);
-  Panel stress{.title = "4340 steel with voids: tension in plane strain", .x_label = "plastic strain of the matrix",
+  Panel stress{.title = "4340 steel with voids: tension in plane strain",
+               .x_label = "plastic strain of the matrix",
                .y_label = "equivalent stress (MPa)"};
   stress.y_range = {0.0, 1600.0};
   stress.legend = "bottom left";
   stress.curves.push_back(curve("equivalent stress", strain, m.run["equivalent_stress"], 1.0, 1e-6, Mark::line, 0));
-  stress.curves.push_back(curve("10^4 × porosity", strain, m.run["porosity"], 1.0, 1e4, Mark::line, 2));
+  stress.curves.push_back(curve("10000 × porosity", strain, m.run["porosity"], 1.0, 1e4, Mark::line, 2));
   mark(stress, fmt::format("Drucker, ep = {:.3f}", first.value_or(0.0)), first, 0.0, 1500.0, 1);
   mark(stress, fmt::format("acoustic tensor, ep = {:.3f}", second.value_or(0.0)), second, 0.0, 1500.0, 3);
-  Panel margin{.title = "margins: points from the tangent by differences", .x_label = "plastic strain of the matrix",
+  Panel margin{.title = "margins: points from the tangent by differences",
+               .x_label = "plastic strain of the matrix",
                .y_label = "margin (unstable below 0)"};
   margin.legend = "top right";
   margin.y_range = {-0.05, 0.1};
-  margin.curves = {without_elastic_part("Drucker", m, m.drucker, Mark::line, 1), {"", m.stations, m.drucker_search, Mark::points, 1},
-                   without_elastic_part("acoustic tensor", m, m.acoustic, Mark::line, 3), {"", m.stations, m.acoustic_search, Mark::points, 3},
+  margin.curves = {without_elastic_part("Drucker", m, m.drucker, Mark::line, 1),
+                   {"", m.stations, m.drucker_search, Mark::points, 1},
+                   without_elastic_part("acoustic tensor", m, m.acoustic, Mark::line, 3),
+                   {"", m.stations, m.acoustic_search, Mark::points, 3},
                    {"", {0.0, 0.5}, {0.0, 0.0}, Mark::line, 6}};
-  checks.push_back({"porous, plane strain: largest difference of a margin", "determinants of the tangent by differences", m.disagreement, 1e-3});
-  checks.push_back({"porous: strain from Drucker's onset to the acoustic one", "not negative for associated flow", second.value_or(1e3) - first.value_or(0.0), {}});
+  checks.push_back({"porous, plane strain: largest difference of a margin", "determinants of the tangent by differences",
+                    m.disagreement, 1e-3});
+  checks.push_back({"porous: strain from Drucker's onset to the acoustic one",
+                    "not negative for associated flow",
+                    second.value_or(1e3) - first.value_or(0.0),
+                    {}});
   panels.push_back(std::move(stress)), panels.push_back(std::move(margin));
 }
 
@@ -253,8 +267,11 @@ void porous(std::vector<Panel>& panels, std::vector<Check>& checks) {
 
 Picture stability() {
   Picture picture;
-  picture.figure = {.title = "Onset of instability (Johnson-Cook 4340, rate frozen): 1000 /s, adiabatic", .panels = {}, .columns = 2,
-                    .panel_width = 600, .panel_height = 430};
+  picture.figure = {.title = "Onset of instability (Johnson-Cook 4340, rate frozen): 1000 /s, adiabatic",
+                    .panels = {},
+                    .columns = 2,
+                    .panel_width = 600,
+                    .panel_height = 430};
   von_mises(picture.figure.panels, picture.checks);
   porous(picture.figure.panels, picture.checks);
   return picture;

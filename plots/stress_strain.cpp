@@ -32,8 +32,8 @@ Material zerilli_armstrong_copper() {
 double inconsistency(const Material& material, const Run& run) {
   double worst = 0.0;
   const std::vector<double>&q = run["equivalent_stress"], &strain = run["plastic_strain"], &rate = run["plastic_strain_rate"],
-              &T = run["temperature"], &Tm = run["melting_temperature"], &mu = run["shear_modulus"], &p = run["pressure"],
-              &rho = run["density"];
+        &T = run["temperature"], &Tm = run["melting_temperature"], &mu = run["shear_modulus"], &p = run["pressure"],
+        &rho = run["density"];
   std::visit(
       [&]<class Law>(const Law& law) {
         for (std::size_t i = 1; i < q.size(); ++i) {
@@ -68,18 +68,18 @@ driver::Panel family(const Metal& metal, double& worst) {
     worst = std::max(worst, inconsistency(metal.material, run));
     panel.curves.push_back(curve(std::move(title), run["plastic_strain"], run["equivalent_stress"], 1.0, 1e-6, mark, colour));
   };
-  add("298 K, 10^5 /s", 1e5, room, Mark::line, 1);
-  add("298 K, 10^3 /s", 1e3, room, Mark::line, 0);
-  add("298 K, 10^{-3} /s", 1e-3, room, Mark::line, 2);
-  add("77 K, 10^3 /s", 1e3, 77.0, Mark::dashed, 5);
-  add("600 K, 10^3 /s", 1e3, 600.0, Mark::dashed, 4);
-  add("900 K, 10^3 /s", 1e3, 900.0, Mark::dashed, 3);
+  add("298 K, 10⁵ /s", 1e5, room, Mark::line, 1);
+  add("298 K, 10³ /s", 1e3, room, Mark::line, 0);
+  add("298 K, 10⁻³ /s", 1e-3, room, Mark::line, 2);
+  add("77 K, 10³ /s", 1e3, 77.0, Mark::dashed, 5);
+  add("600 K, 10³ /s", 1e3, 600.0, Mark::dashed, 4);
+  add("900 K, 10³ /s", 1e3, 900.0, Mark::dashed, 3);
   return panel;
 }
 
 driver::Panel against_rate(const std::vector<Metal>& metals) {
-  driver::Panel panel{.title = "plastic strain 0.15, isothermal at 298 K", .x_label = "strain rate (1/s)",
-                      .y_label = "flow stress (MPa)"};
+  driver::Panel panel{
+      .title = "plastic strain 0.15, isothermal at 298 K", .x_label = "strain rate (1/s)", .y_label = "flow stress (MPa)"};
   panel.logarithmic_x = true;
   panel.y_range = {0.0, 620.0};
   for (std::size_t m = 0; m < metals.size(); ++m) {
@@ -105,8 +105,11 @@ Picture stress_strain() {
                                   {"Steinberg-Cochran-Guinan (half hard)", read("copper_ofhc_scg")},
                                   {"Zerilli-Armstrong", zerilli_armstrong_copper()}};
   Picture picture;
-  picture.figure = {.title = "OFHC copper in uniaxial compression: adiabatic at 10^3 and 10^5 /s, isothermal at 10^{-3} /s",
-                    .panels = {}, .columns = 3, .panel_width = 480, .panel_height = 420};
+  picture.figure = {.title = "OFHC copper in uniaxial compression: adiabatic at 10³ and 10⁵ /s, isothermal at 10⁻³ /s",
+                    .panels = {},
+                    .columns = 3,
+                    .panel_width = 480,
+                    .panel_height = 420};
   for (const Metal& metal : metals) {
     double worst = 0.0;
     picture.figure.panels.push_back(family(metal, worst));

@@ -13,7 +13,8 @@ namespace {
 
 std::string_view trimmed(std::string_view text) {
   const auto begin = text.find_first_not_of(" \t");
-  return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
+  return begin == std::string_view::npos ? text.substr(text.size())
+                                         : text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
 }
 
 std::vector<std::string_view> split(std::string_view line) {

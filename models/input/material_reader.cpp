@@ -27,6 +27,11 @@ struct is_array : std::false_type {};
 template <std::size_t N>
 struct is_array<std::array<double, N>> : std::true_type {};
 
+template <class T>
+struct is_vector : std::false_type {};
+template <class T>
+struct is_vector<std::vector<T>> : std::true_type {};
+
 template <class Variant>
 struct Laws;
 template <class... Law>
@@ -299,7 +304,7 @@ MaterialFile read_material(TableReader& table) {
   m.equation_of_state =
       read_component<EquationOfState>(table.table("equation_of_state"), "equation_of_state", file, reference_density);
   for_each_component_of(m, [&]<class Component>(const std::string& name, Component& component) {
-    if constexpr (requires { component.push_back(*component.begin()); })
+    if constexpr (is_vector<Component>::value)
       read_list(table, name, component, file);
     else
       read_optional(table, name, component, file);
@@ -374,7 +379,7 @@ std::string write_material(const Material& material, std::string_view source) {
   MaterialFile file{material, "", {}, {}};
   file.sources["equation_of_state"] = source;
   for_each_component_of(material, [&]<class Component>(const std::string& name, const Component& component) {
-    if constexpr (requires { component.push_back(*component.begin()); }) {
+    if constexpr (is_vector<Component>::value) {
       for (std::size_t i = 0; i < component.size(); ++i) file.sources[name + '.' + std::to_string(i)] = source;
     } else {
       file.sources[name] = source;

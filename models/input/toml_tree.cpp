@@ -86,6 +86,7 @@ std::optional<Trap> first_trap(std::string_view text) {
         if (!triple && i < text.size() && text[i] == '\n') break;
       }
       i += end.size() - 1;
+      for (int extra = 0; triple && extra < 2 && text.substr(i + 1, 1) == end.substr(0, 1); ++extra) ++i;  // part of the text
       line_begins = false;
       continue;
     }
@@ -166,11 +167,33 @@ TomlNode converted(const toml::node& from) {
   return result;
 }
 
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
 }  // namespace
 
 TomlEntry* TomlTable::find(std::string_view key) {
   const auto found = std::find_if(entries.begin(), entries.end(), [&](const TomlEntry& entry) { return entry.key == key; });
   return found == entries.end() ? nullptr : &*found;
+}
+
+std::string kind_of(const TomlNode& node) {
+  return std::visit(
+      Overloaded{[](const TomlTable&) { return std::string("a table"); }, [](const TomlList&) { return std::string("a list"); },
+                 [](const TomlDate&) { return std::string("a date or time"); },
+                 [](bool value) { return std::string(value ? "true" : "false"); },
+                 [](std::int64_t value) { return "the number " + std::to_string(value); },
+                 [](double value) { return "the number " + shortest_text(value); },
+                 [](const std::string& value) { return "the text " + in_quotes(value); }},
+      node.value);
+}
+
+std::string joined(const std::string& path, std::string_view key) {
+  return path.empty() ? printable(key) : path + '.' + printable(key);
 }
 
 TomlNode parse_toml(std::string_view text, const std::string& file_name) {

@@ -46,6 +46,12 @@ struct TomlEntry {
   bool read = false;
 };
 
+/// What a value is, for messages: "a list", "the number 3".
+std::string kind_of(const TomlNode& node);
+
+/// A key within a table as messages and overrides name it: "flow_stress.A".
+std::string joined(const std::string& path, std::string_view key);
+
 /// Parses TOML text. Throws InputError, naming the file, if it is not UTF-8 or not TOML.
 TomlNode parse_toml(std::string_view text, const std::string& file_name);
 

@@ -18,8 +18,8 @@ struct ChuNeedleman {
   bool nucleates_in_compression;
 
   static constexpr auto parameters = std::tuple{
-      Parameter{"volume_fraction", &ChuNeedleman::volume_fraction, Unit::one, "fN, void volume fraction of all nucleating particles",
-                between(0.0, 0.5)},
+      Parameter{"volume_fraction", &ChuNeedleman::volume_fraction, Unit::one,
+                "fN, void volume fraction of all nucleating particles", between(0.0, 0.5)},
       Parameter{"mean_strain", &ChuNeedleman::mean_strain, Unit::one, "eN, mean nucleation strain", non_negative},
       Parameter{"standard_deviation", &ChuNeedleman::standard_deviation, Unit::one, "sN, its standard deviation", positive},
       Parameter{"nucleates_in_compression", &ChuNeedleman::nucleates_in_compression, Unit::one,

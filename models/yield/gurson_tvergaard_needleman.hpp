@@ -43,8 +43,8 @@ struct GursonTvergaardNeedleman {
                 "fc, porosity from which voids coalesce", fraction},
       Parameter{"coalescence_slope", &GursonTvergaardNeedleman::coalescence_slope, Unit::one, "kc, slope of f* beyond fc",
                 at_least(1.0)},
-      Parameter{"return_to", &GursonTvergaardNeedleman::return_to, Unit::one, "surface that the return mapping ends on", any_value,
-                ReturnTo::porous_surface}};
+      Parameter{"return_to", &GursonTvergaardNeedleman::return_to, Unit::one, "surface that the return mapping ends on",
+                any_value, ReturnTo::porous_surface}};
 
   /// The f* at which the surface has shrunk to a point: the smaller root of 1 - 2 q1 f* + q3 f*^2.
   double ultimate_porosity() const { return 1.0 / (q1 + std::sqrt(std::max(q1 * q1 - q3, 0.0))); }

@@ -3,6 +3,7 @@
 //
 // The input is  key=value LF key=value LF ... NUL material file,  or a material file alone.
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

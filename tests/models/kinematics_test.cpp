@@ -35,6 +35,11 @@ double distance(const Tensor<double>& a, const Tensor<double>& b) {
   return norm(a - b);
 }
 
+/// Of the whole increment; the function takes what it has beyond the identity.
+PolarIncrement<double> polar_of(const Tensor<double>& dF) {
+  return polar_increment(dF - Tensor<double>::identity());
+}
+
 class Random {
  public:
   double uniform(double a, double b) { return std::uniform_real_distribution<double>(a, b)(engine_); }
@@ -98,6 +103,25 @@ TEST(Exponential, LosesAccuracyBeyondItsLimitOnlyAsDocumented) {
   EXPECT_GT(worst, round_off) << "the limit could be raised";
 }
 
+TEST(Exponential, OfASmallTensorLessTheIdentityKeepsAllItsDigits) {
+  Random random;
+  for (const double size : {1e-12, 1e-8, 1e-4, 1e-2}) {
+    const Tensor<double> A = random.of_size(size);
+    const Tensor<double> A2 = A * A;
+    const Tensor<double> expected = A + 0.5 * A2 + (1.0 / 6.0) * (A2 * A) + (1.0 / 24.0) * (A2 * A2) +
+                                    (1.0 / 120.0) * (A2 * A2 * A) + (1.0 / 720.0) * (A2 * A2 * A2);
+    EXPECT_LE(distance(exponential_minus_identity(A), expected), round_off * size);
+  }
+}
+
+TEST(Exponential, IsAsGoodOnBothSidesOfTheSwitchToTheLongSum) {
+  Random random;
+  for (const double size : {0.0299, 0.0301}) {
+    const Tensor<double> A = random.of_size(size);
+    EXPECT_LE(distance(exponential(A), long_series(A)), round_off) << size;
+  }
+}
+
 TEST(Exponential, KeepsVolumeAsTheTraceDemands) {
   Random random;
   for (int i = 0; i < cases; ++i) {
@@ -127,7 +151,7 @@ TEST(PolarIncrement, EqualsTheSingularValueDecomposition) {
     const Eigen::Matrix3d direction = (0.5 * (stretch + stretch.transpose())).normalized();
     const double size = random.uniform(0.0, 0.12);
     const Eigen::Matrix3d V = exponential_of_symmetric(size * direction), R = random.rotation();
-    const PolarIncrement<double> polar = polar_increment(tensor(V * R));
+    const PolarIncrement<double> polar = polar_of(tensor(V * R));
     ASSERT_LE(polar.size, 0.3);
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(V * R, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Eigen::Matrix3d U = svd.matrixU();
@@ -142,20 +166,30 @@ TEST(PolarIncrement, SizeIsTheNormOfVSquaredLessOne) {
   Random random;
   for (int i = 0; i < 100; ++i) {
     const Eigen::Matrix3d F = eigen(exponential(random.of_size(0.4)));
-    ASSERT_NEAR(polar_increment(tensor(F)).size, (F * F.transpose() - Eigen::Matrix3d::Identity()).norm(), round_off);
+    ASSERT_NEAR(polar_of(tensor(F)).size, (F * F.transpose() - Eigen::Matrix3d::Identity()).norm(), round_off);
+  }
+}
+
+TEST(PolarIncrement, KeepsTheDigitsOfASmallStrain) {
+  // ln V of exp(A) with A symmetric is A, however small: only that, and not I + A, is rounded.
+  Random random;
+  for (const double size : {1e-12, 1e-8, 1e-4, 3e-3, 5e-3, 0.05}) {
+    const SymmetricTensor<double> A = symmetric_part(random.of_size(size));
+    const PolarIncrement<double> polar = polar_increment(exponential_minus_identity(to_tensor(A)));
+    EXPECT_LE(norm(polar.strain - A), round_off * size) << size;
   }
 }
 
 TEST(PolarIncrement, IsAsGoodOnBothSidesOfTheSwitchToTheLongSum) {
-  constexpr double switch_size = 0.03;
+  constexpr double switch_size = 0.004;
   for (const double size : {0.999 * switch_size, 1.001 * switch_size, 0.299}) {
     Tensor<double> F = Tensor<double>::identity();
     F.xx = std::sqrt(1.0 + size);
-    const PolarIncrement<double> polar = polar_increment(F);
+    const PolarIncrement<double> polar = polar_of(F);
     EXPECT_NEAR(polar.strain.xx, 0.5 * std::log1p(size), strain_round_off) << size;
     EXPECT_NEAR(polar.rotation.xx, 1.0, round_off) << size;
     F.xx = std::sqrt(1.0 - size);
-    EXPECT_NEAR(polar_increment(F).strain.xx, 0.5 * std::log1p(-size), strain_round_off) << size;
+    EXPECT_NEAR(polar_of(F).strain.xx, 0.5 * std::log1p(-size), strain_round_off) << size;
   }
 }
 
@@ -163,7 +197,7 @@ TEST(PolarIncrement, OfAPureRotationHasNoStrain) {
   Random random;
   for (int i = 0; i < cases; ++i) {
     const Eigen::Matrix3d R = random.rotation();
-    const PolarIncrement<double> polar = polar_increment(tensor(R));
+    const PolarIncrement<double> polar = polar_of(tensor(R));
     ASSERT_LE(norm(polar.strain), strain_round_off);
     ASSERT_LE(distance(polar.rotation, R), round_off);
   }
@@ -173,7 +207,7 @@ TEST(PolarIncrement, TraceOfTheStrainIsTheLogarithmOfTheVolumeRatio) {
   Random random;
   for (int i = 0; i < cases; ++i) {
     const Tensor<double> A = random.of_size(random.uniform(0.0, 0.13));
-    const PolarIncrement<double> polar = polar_increment(exponential(A));
+    const PolarIncrement<double> polar = polar_of(exponential(A));
     ASSERT_NEAR(trace(polar.strain), trace(A), round_off);
   }
 }
@@ -182,7 +216,7 @@ TEST(PolarIncrement, RotatesWithTheFrame) {
   Random random;
   for (int i = 0; i < cases; ++i) {
     const Eigen::Matrix3d Q = random.rotation(), F = eigen(exponential(random.of_size(0.1)));
-    const PolarIncrement<double> at_rest = polar_increment(tensor(F)), turned = polar_increment(tensor(Q * F));
+    const PolarIncrement<double> at_rest = polar_of(tensor(F)), turned = polar_of(tensor(Q * F));
     ASSERT_LE(distance(turned.rotation, Q * eigen(at_rest.rotation)), round_off);
     ASSERT_LE(distance(to_tensor(turned.strain), to_tensor(rotate(tensor(Q), at_rest.strain))), round_off);
   }
@@ -233,12 +267,14 @@ TEST(Kinematics, LanesGiveTheResultsOfDoubles) {
       A[l] = random.of_size(random.uniform(0.0, 0.13));
       for (int c = 0; c < 9; ++c) components(packed)[c]->set(l, *components(A[l])[c]);
     }
+    const Tensor<Lanes> B = exponential_minus_identity(packed);
     Tensor<Lanes> F = exponential(packed);
-    PolarIncrement<Lanes> polar = polar_increment(F);
+    PolarIncrement<Lanes> polar = polar_increment(B);
     Tensor<Lanes> whole = polar_rotation(F);
     for (int l = 0; l < Lanes::width; ++l) {
-      Tensor<double> F1 = exponential(A[l]), R1 = polar_increment(F1).rotation, whole1 = polar_rotation(F1);
-      const SymmetricTensor<double> strain1 = polar_increment(F1).strain;
+      const PolarIncrement<double> polar1 = polar_increment(exponential_minus_identity(A[l]));
+      Tensor<double> F1 = exponential(A[l]), R1 = polar1.rotation, whole1 = polar_rotation(F1);
+      const SymmetricTensor<double> strain1 = polar1.strain;
       for (int c = 0; c < 9; ++c) {
         // The same operations in the same order; nothing here calls the mathematics library but the square root.
         ASSERT_EQ((*components(F)[c])[l], *components(F1)[c]);

@@ -54,11 +54,13 @@ std::vector<Fault> faults() {
   const Material steel = steel_4340(), porous = steel_hy100();
   Material warm_solid = copper_preston_tonks_wallace();
   return {
-      {"Johnson-Cook without melting", steel,
-       [](Material& m) { m.melting.reset(), m.damage.reset(), m.failure.clear(); }, "flow_stress", "johnson_cook needs a melting"},
+      {"Johnson-Cook without melting", steel, [](Material& m) { m.melting.reset(), m.damage.reset(), m.failure.clear(); },
+       "flow_stress", "johnson_cook needs a melting"},
       {"shear modulus without melting", elastic(),
-       [](Material& m) { m.shear_modulus = shear_modulus::PrestonTonksWallace{51.8e9, 28e-12, 0.2}; }, "shear_modulus",
-       "preston_tonks_wallace needs a melting"},
+       [](Material& m) {
+         m.shear_modulus = shear_modulus::PrestonTonksWallace{51.8e9, 28e-12, 0.2};
+       },
+       "shear_modulus", "preston_tonks_wallace needs a melting"},
       {"damage without melting", steel,
        [](Material& m) {
          m.melting.reset(), m.failure.clear();
@@ -66,8 +68,8 @@ std::vector<Fault> faults() {
        },
        "damage", "johnson_cook needs a melting"},
       {"flow stress without yield", steel, [](Material& m) { m.yield.reset(); }, "flow_stress", "without a yield surface"},
-      {"yield without flow stress", steel,
-       [](Material& m) { m.flow_stress.reset(), m.damage.reset(), m.failure.clear(); }, "yield", "no size without a flow stress"},
+      {"yield without flow stress", steel, [](Material& m) { m.flow_stress.reset(), m.damage.reset(), m.failure.clear(); },
+       "yield", "no size without a flow stress"},
       {"flow stress without shear modulus", steel,
        [](Material& m) {
          m.shear_modulus.reset(), m.melting.reset(), m.damage.reset(), m.failure.clear();
@@ -82,19 +84,23 @@ std::vector<Fault> faults() {
          m.flow_stress = flow_stress::LinearHardening{400e6, 1e8}, m.yield = yield::VonMises{};
        },
        "viscoelastic", "carries the deviatoric stress alone"},
-      {"melting of nothing", air(), [](Material& m) { m.melting = melting::Constant{300.0}; }, "melting", "nothing here depends"},
+      {"melting of nothing", air(), [](Material& m) { m.melting = melting::Constant{300.0}; }, "melting",
+       "nothing here depends"},
       {"porous yield without porosity", porous,
-       [](Material& m) { m.porosity.reset(), m.initial_porosity.reset(), m.failure = {failure::Instability{0.0, true}}; }, "yield",
-       "needs the evolution of porosity"},
+       [](Material& m) {
+         m.porosity.reset(), m.initial_porosity.reset(), m.failure = {failure::Instability{0.0, true}};
+       },
+       "yield", "needs the evolution of porosity"},
       {"porosity without yield", elastic(), [](Material& m) { m.porosity = porosity::Growth{}; }, "porosity",
        "follows from plastic flow"},
       {"void growth with von Mises", steel, [](Material& m) { m.porosity = porosity::Growth{}; }, "porosity",
        "do not grow under the isochoric flow"},
-      {"initial porosity without porosity", steel,
-       [](Material& m) { m.initial_porosity = porosity::initial::Constant{0.01}; }, "initial_porosity", "would be ignored"},
+      {"initial porosity without porosity", steel, [](Material& m) { m.initial_porosity = porosity::initial::Constant{0.01}; },
+       "initial_porosity", "would be ignored"},
       {"damage without flow", elastic(), [](Material& m) { m.damage = damage::HancockMackenzie{false}; }, "damage",
        "grows with plastic strain"},
-      {"heating without specific heat", steel, [](Material& m) { m.specific_heat.reset(); }, "heating", "needs a specific heat"},
+      {"heating without specific heat", steel, [](Material& m) { m.specific_heat.reset(); }, "heating",
+       "needs a specific heat"},
       {"specific heat without heating", steel, [](Material& m) { m.heating.reset(); }, "specific_heat", "would be ignored"},
       {"heating of a complete law", air(),
        [](Material& m) {
@@ -135,8 +141,8 @@ std::vector<Fault> faults() {
        "tepla_f needs a [porosity]"},
       {"critical damage without damage", only(failure::CriticalDamage{1.0}), [](Material& m) { m.damage.reset(); }, "failure",
        "critical_damage needs a [damage]"},
-      {"critical porosity without porosity", steel, [](Material& m) { m.failure = {failure::CriticalPorosity{0.3}}; }, "failure",
-       "critical_porosity needs a [porosity]"},
+      {"critical porosity without porosity", steel, [](Material& m) { m.failure = {failure::CriticalPorosity{0.3}}; },
+       "failure", "critical_porosity needs a [porosity]"},
       {"instability without stability", with_stability(), [](Material& m) { m.stability.clear(); }, "failure",
        "instability needs a [[stability]]"}};
 }

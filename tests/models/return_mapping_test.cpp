@@ -34,7 +34,7 @@ class States {
     t.at.shear_modulus = t.shear_modulus;
     t.at.pressure = uniform(-5e9, 50e9);
     t.at.density = sample_.density * uniform(0.9, 1.4);
-    t.time_step = logarithmic(1e-12, 1e-3);
+    t.inverse_time_step = 1.0 / logarithmic(1e-12, 1e-3);
     t.last_rate = coin() ? 0.0 : logarithmic(1e-6, 1e9);
     t.flow_history = coin() ? 0.0 : uniform(0.0, 1e9);
     t.porosity = 0.0;
@@ -75,8 +75,9 @@ TEST(ReturnMapping, MeetsTheConsistencyConditionForEveryLawFromAnyState) {
             const double Y = flow_stress_at(law, t, end.plastic_strain_increment);
             const double excess = std::abs(end.equivalent_stress - Y) - round_off * t.equivalent_stress;
             worst = std::max(worst, excess / std::max(Y, 1e-300));
-            ASSERT_LE(excess, consistency * Y) << law.name << " state " << i << " Y " << Y << " x " << end.plastic_strain_increment
-                                               << " q_tr " << t.equivalent_stress << " T " << t.at.temperature;
+            ASSERT_LE(excess, consistency * Y)
+                << law.name << " state " << i << " Y " << Y << " x " << end.plastic_strain_increment << " q_tr "
+                << t.equivalent_stress << " T " << t.at.temperature;
           }
           EXPECT_GT(plastic, 90'000) << law.name;
           RecordProperty(std::string(law.name), std::to_string(worst));
@@ -88,7 +89,7 @@ TEST(ReturnMapping, MeetsTheConsistencyConditionForEveryLawFromAnyState) {
 TEST(ReturnMapping, LinearHardeningHasItsClosedForm) {
   const flow_stress::LinearHardening law{400e6, 100e6};
   Trial<double> t{};
-  t.shear_modulus = 45e9, t.bulk_modulus = 140e9, t.time_step = 1e-6;
+  t.shear_modulus = 45e9, t.bulk_modulus = 140e9, t.inverse_time_step = 1e6;
   t.at.plastic_strain = 0.2, t.at.melting_temperature = 1e30, t.at.temperature = 300.0;
   for (double q : {421e6, 600e6, 5e9}) {
     t.equivalent_stress = q;
@@ -137,7 +138,8 @@ TEST(PorousReturnMapping, EndsOnTheSurfaceWithNormalFlowAndMatchingWorkFromAnySt
             // A trial stress of ten times the flow stress, a triaxiality of a hundred: more than an explicit step can ask for.
             const double Y0 = flow_stress_at(law, t, 0.0);
             t.equivalent_stress = std::min(t.equivalent_stress, 10.0 * Y0);
-            t.mean_stress = (states.coin() ? -1.0 : 1.0) * std::min(t.equivalent_stress * states.logarithmic(1e-3, 1e2), 20.0 * Y0);
+            t.mean_stress =
+                (states.coin() ? -1.0 : 1.0) * std::min(t.equivalent_stress * states.logarithmic(1e-3, 1e2), 20.0 * Y0);
             const auto end = return_to_surface(steel_surface, law, steel_nucleation, t);
             ASSERT_TRUE(end.converged) << law.name << " state " << i << " q " << t.equivalent_stress << " sm " << t.mean_stress
                                        << " f " << t.porosity << " Y0 " << flow_stress_at(law, t, 0.0);
@@ -194,7 +196,7 @@ TEST(PorousReturnMapping, ReferenceOptionTestsThePorousSurfaceButReturnsToTheMat
   surface.return_to = yield::ReturnTo::matrix_stress;
   const flow_stress::LinearHardening law{400e6, 0.0};
   Trial<double> t{};
-  t.shear_modulus = 45e9, t.bulk_modulus = 140e9, t.time_step = 1e-6, t.porosity = 0.05;
+  t.shear_modulus = 45e9, t.bulk_modulus = 140e9, t.inverse_time_step = 1e6, t.porosity = 0.05;
   t.at.melting_temperature = 1e30, t.at.temperature = 300.0;
   t.equivalent_stress = 500e6, t.mean_stress = 300e6;
   const auto end = return_to_surface(surface, law, steel_nucleation, t);
@@ -224,7 +226,7 @@ TEST(PorousReturnMapping, LanesGiveWhatDoublesGive) {
               put(all.at.melting_temperature, i, t.at.melting_temperature), put(all.at.shear_modulus, i, t.at.shear_modulus);
               put(all.at.pressure, i, t.at.pressure), put(all.at.density, i, t.at.density);
               put(all.flow_history, i, t.flow_history), put(all.porosity, i, t.porosity);
-              put(all.time_step, i, t.time_step), put(all.last_rate, i, t.last_rate);
+              put(all.inverse_time_step, i, t.inverse_time_step), put(all.last_rate, i, t.last_rate);
             }
             const auto packed = return_to_surface(steel_surface, law, steel_nucleation, all);
             for (int i = 0; i < 8; ++i) {

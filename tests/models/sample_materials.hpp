@@ -2,9 +2,11 @@
 // One sample of every law that is not a flow stress, and complete materials made of them, for tests that go over all.
 // Values as in data/materials, SI.
 
+#include <array>
+#include <utility>
 #include <vector>
 
-#include "models/material.hpp"
+#include "models/update.hpp"
 #include "tests/models/sample_laws.hpp"
 
 namespace brisance::samples {
@@ -93,7 +95,8 @@ inline std::vector<Stability> stabilities() {
 
 inline std::vector<Failure> failures() {
   using namespace failure;
-  return {failure::Melting{}, TeplaF{0.3}, CriticalDamage{1.0}, CriticalPorosity{0.3}, Instability{0.01, true}, TensileLimit{2e9}};
+  return {failure::Melting{},      TeplaF{0.3},      CriticalDamage{1.0}, CriticalPorosity{0.3},
+          Instability{0.01, true}, TensileLimit{2e9}};
 }
 
 inline std::vector<Reaction> reactions() {
@@ -226,8 +229,84 @@ inline Material air() {
 }
 
 inline std::vector<Material> materials() {
-  return {steel_4340(),  steel_hy100(), copper_preston_tonks_wallace(), copper_steinberg_lund(), elastic(),
-          hypoelastic(), pbx_9501(),    air()};
+  return {steel_4340(), steel_hy100(), copper_preston_tonks_wallace(), copper_steinberg_lund(), elastic(), hypoelastic(),
+          pbx_9501(),   air()};
 }
+
+// A point under test --------------------------------------------------------------------------------------------------
+
+/// Every number of a state.
+template <class Real>
+auto numbers(State<Real>& s) {
+  std::array<Real*, 27 + history_capacity> all;
+  int n = 0;
+  for_each_component([&](Real& x) { all[n++] = &x; }, s.stress);
+  Tensor<Real>& F = s.deformation_gradient;
+  for (Real* x : {&F.xx, &F.xy, &F.xz, &F.yx, &F.yy, &F.yz, &F.zx, &F.zy, &F.zz}) all[n++] = x;
+  for (Real* x : {&s.density, &s.energy, &s.temperature, &s.plastic_strain, &s.plastic_strain_rate, &s.plastic_volume_strain,
+                  &s.porosity, &s.damage, &s.shear_modulus, &s.flow_history, &s.failure_cause, &s.failure_time})
+    all[n++] = x;
+  for (Real& x : s.history) all[n++] = &x;
+  return all;
+}
+
+inline void set_lane(double& x, int /*lane*/, double value) {
+  x = value;
+}
+inline void set_lane(Lanes& x, int lane, double value) {
+  x.set(lane, value);
+}
+template <class Real>
+void set_velocity_gradient(Point<Real>& p, int lane, const Tensor<double>& L) {
+  Tensor<Real>& to = p.velocity_gradient;
+  set_lane(to.xx, lane, L.xx), set_lane(to.xy, lane, L.xy), set_lane(to.xz, lane, L.xz);
+  set_lane(to.yx, lane, L.yx), set_lane(to.yy, lane, L.yy), set_lane(to.yz, lane, L.yz);
+  set_lane(to.zx, lane, L.zx), set_lane(to.zy, lane, L.zy), set_lane(to.zz, lane, L.zz);
+}
+template <class Real>
+State<double> state_of(State<Real> s, int of_lane) {
+  State<double> result;
+  const auto from = numbers(s);
+  const auto to = numbers(result);
+  for (std::size_t i = 0; i < to.size(); ++i) *to[i] = lane(*from[i], of_lane);
+  return result;
+}
+template <class Real>
+void set_state(State<Real>& s, int of_lane, State<double> value) {
+  const auto from = numbers(value);
+  const auto to = numbers(s);
+  for (std::size_t i = 0; i < to.size(); ++i) set_lane(*to[i], of_lane, *from[i]);
+}
+
+/// One point under test, in the first lane. The other lanes, where there are any, take a smaller and smaller part in the
+/// motion.
+template <class Real>
+class Specimen {
+ public:
+  explicit Specimen(Material m, double temperature = room_temperature) : Specimen(m, initial_state(m, temperature)) {}
+  Specimen(Material m, const State<double>& start) : material(std::move(m)) {
+    batch.size = 1;
+    for (int i = 0; i < width_of<Real>; ++i) set_state(batch.points[0].state, i, start);
+  }
+
+  void step(const Tensor<double>& L, double dt) {
+    for (int i = 0; i < width_of<Real>; ++i) set_velocity_gradient(batch.points[0], i, (1.0 - 0.1 * i) * L);
+    batch.time += dt;
+    update(material, batch, dt);
+  }
+  void steps(int count, const Tensor<double>& L, double dt) {
+    for (int i = 0; i < count; ++i) step(L, dt);
+  }
+
+  State<double> state() const { return state_of(batch.points[0].state, 0); }
+  /// A number that the phases leave in the point.
+  double operator[](Real Point<Real>::*member) const { return lane(batch.points[0].*member, 0); }
+  Trouble trouble() const { return static_cast<Trouble>(static_cast<int>((*this)[&Point<Real>::trouble])); }
+  double equivalent_stress() const { return brisance::equivalent_stress(deviator(state().stress)); }
+  double mean_stress() const { return trace(state().stress) / 3.0; }
+
+  Material material;
+  Batch<Real> batch;
+};
 
 }  // namespace brisance::samples

@@ -186,15 +186,40 @@ int run(const char* json) {
 
   const flow_stress::JohnsonCook steel{792e6, 510e6, 0.26, 0.014, 1.03, 1.0, 298.0};
   const damage::JohnsonCook steel_damage{0.05, 3.44, -2.12, 0.002, 0.61, 1.0, 298.0, 0.01};
-  const flow_stress::MechanicalThresholdStress hy100{
-      .athermal_stress = 40e6, .k_over_b3 = 0.905e6, .reference_shear_modulus = 71.46e9, .intrinsic_stress = 1341e6,
-      .intrinsic_barrier = 1.161, .intrinsic_rate = 1e13, .intrinsic_p = 0.5, .intrinsic_q = 1.5, .evolving_barrier = 1.6,
-      .evolving_rate = 1e7, .evolving_p = 2.0 / 3.0, .evolving_q = 1.0, .a0 = 6.0e9, .a1 = 0.0, .a2 = 0.0, .a3 = 2.0758e6,
-      .stage_four_hardening = 200e6, .hardening_form = {}, .alpha = 3.0, .saturation_stress = 822e6,
-      .saturation_barrier = 0.112, .saturation_rate = 1e7};
-  const flow_stress::PrestonTonksWallace copper{.theta = 0.025, .p = 2.0, .s0 = 0.0085, .s_inf = 0.00055, .kappa = 0.11,
-                                                .gamma = 1e-5, .y0 = 0.0001, .y_inf = 0.0001, .y1 = 0.094, .y2 = 0.575,
-                                                .beta = 0.25, .atomic_mass = 63.546};
+  const flow_stress::MechanicalThresholdStress hy100{.athermal_stress = 40e6,
+                                                     .k_over_b3 = 0.905e6,
+                                                     .reference_shear_modulus = 71.46e9,
+                                                     .intrinsic_stress = 1341e6,
+                                                     .intrinsic_barrier = 1.161,
+                                                     .intrinsic_rate = 1e13,
+                                                     .intrinsic_p = 0.5,
+                                                     .intrinsic_q = 1.5,
+                                                     .evolving_barrier = 1.6,
+                                                     .evolving_rate = 1e7,
+                                                     .evolving_p = 2.0 / 3.0,
+                                                     .evolving_q = 1.0,
+                                                     .a0 = 6.0e9,
+                                                     .a1 = 0.0,
+                                                     .a2 = 0.0,
+                                                     .a3 = 2.0758e6,
+                                                     .stage_four_hardening = 200e6,
+                                                     .hardening_form = {},
+                                                     .alpha = 3.0,
+                                                     .saturation_stress = 822e6,
+                                                     .saturation_barrier = 0.112,
+                                                     .saturation_rate = 1e7};
+  const flow_stress::PrestonTonksWallace copper{.theta = 0.025,
+                                                .p = 2.0,
+                                                .s0 = 0.0085,
+                                                .s_inf = 0.00055,
+                                                .kappa = 0.11,
+                                                .gamma = 1e-5,
+                                                .y0 = 0.0001,
+                                                .y_inf = 0.0001,
+                                                .y1 = 0.094,
+                                                .y2 = 0.575,
+                                                .beta = 0.25,
+                                                .atomic_mass = 63.546};
   using equation_of_state::MieGruneisenTemperature;
   const std::vector<Row> rows{
       measure("Johnson-Cook, Mie-Grueneisen, JC damage",
@@ -249,12 +274,13 @@ int run(const char* json) {
                                                         plastic_heating(),
                                                         {}})};
   for (const Row& r : rows)
-    std::printf("%-42s %10.1f %10.1f %10.1f %7.1fx %7.0f%%\n", r.material.c_str(), r.doubles, r.lanes, r.fixed, r.doubles / r.lanes,
-                100.0 * r.plastic);
+    std::printf("%-42s %10.1f %10.1f %10.1f %7.1fx %7.0f%%\n", r.material.c_str(), r.doubles, r.lanes, r.fixed,
+                r.doubles / r.lanes, 100.0 * r.plastic);
   if (json) {
     std::ofstream out(json);
-    out << "{\"processor\": \"" << processor() << "\", \"vector_bits\": " << 64 * simd::register_width << ", \"compiler\": \"GCC "
-        << __VERSION__ << "\", \"gflops\": " << flops << ", \"triad_gb_per_s\": " << bandwidth << ", \"ns_per_point\": [";
+    out << "{\"processor\": \"" << processor() << "\", \"vector_bits\": " << 64 * simd::register_width
+        << ", \"compiler\": \"GCC " << __VERSION__ << "\", \"gflops\": " << flops << ", \"triad_gb_per_s\": " << bandwidth
+        << ", \"ns_per_point\": [";
     for (std::size_t i = 0; i < rows.size(); ++i)
       out << (i ? ", " : "") << "{\"material\": \"" << rows[i].material << "\", \"double\": " << rows[i].doubles
           << ", \"lanes\": " << rows[i].lanes << ", \"static\": " << rows[i].fixed << "}";

@@ -48,7 +48,7 @@ TEST(Csv, ColumnsThatAreNotWhatWasAskedForAreRefused) {
       refusal([&] { file.numbers("temperature", Unit::Pa); }),
       "data.csv:3:17: column temperature: \"K\" measures a temperature; a pressure is required, as in \"temperature [Pa]\"");
   EXPECT_EQ(refusal([&] { file.numbers("ratio", Unit::Pa); }),
-            "data.csv:3:41: column ratio: no unit is given; a pressure is required, as in \"ratio [Pa]\"");
+            "data.csv:3:40: column ratio: no unit is given; a pressure is required, as in \"ratio [Pa]\"");
   EXPECT_EQ(refusal([&] { file.numbers("author", Unit::one); }),
             "data.csv:4:1: column author: \"Boehler\" is not a decimal number\n"
             "data.csv:6:1: column author: \"Ross\" is not a decimal number");

@@ -1,0 +1,259 @@
+// Calibration: parameters that made the data are found again, and the intervals mean what they say.
+
+#include "driver/calibrate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "driver/follow.hpp"
+
+namespace brisance::driver {
+namespace {
+
+Material copper_without_flow_stress() {
+  Material m;
+  m.name = "copper";
+  m.density = 8930.0;
+  m.equation_of_state = equation_of_state::MieGruneisenTemperature{.reference_density = 8930.0,
+                                                                   .sound_speed = 3940.0,
+                                                                   .slope = 1.489,
+                                                                   .gruneisen = 2.02,
+                                                                   .specific_heat = 383.0,
+                                                                   .reference_temperature = 298.0};
+  m.shear_modulus = shear_modulus::VarshniChenGray{.zero_temperature_value = 47.7e9, .D = 3e9, .T0 = 180.0};
+  m.melting = melting::Constant{.value = 1356.0};
+  m.specific_heat = specific_heat::Constant{.value = 383.0};
+  m.yield = yield::VonMises{};
+  Table chi;
+  chi.size = 1, chi.y[0] = 0.9;
+  m.heating = Heating{.taylor_quinney = chi, .viscous = true, .thermoelastic = false};
+  return m;
+}
+Material johnson_cook() {
+  Material m = copper_without_flow_stress();
+  m.flow_stress = flow_stress::JohnsonCook{
+      .A = 90e6, .B = 292e6, .n = 0.31, .C = 0.025, .m = 1.09, .reference_strain_rate = 1.0, .reference_temperature = 298.0};
+  return m;
+}
+Material threshold_stress() {
+  Material m = copper_without_flow_stress();
+  m.flow_stress = flow_stress::MechanicalThresholdStress{.athermal_stress = 40e6,
+                                                         .k_over_b3 = 0.823e6,
+                                                         .reference_shear_modulus = 47.7e9,
+                                                         .intrinsic_stress = 0.0,
+                                                         .intrinsic_barrier = 0.0,
+                                                         .intrinsic_rate = 0.0,
+                                                         .intrinsic_p = 0.0,
+                                                         .intrinsic_q = 0.0,
+                                                         .evolving_barrier = 1.6,
+                                                         .evolving_rate = 1e7,
+                                                         .evolving_p = 2.0 / 3.0,
+                                                         .evolving_q = 1.0,
+                                                         .a0 = 2390e6,
+                                                         .a1 = 12e6,
+                                                         .a2 = 1.696e6,
+                                                         .a3 = 0.0,
+                                                         .stage_four_hardening = 0.0,
+                                                         .hardening_form = flow_stress::HardeningForm::tanh,
+                                                         .alpha = 2.0,
+                                                         .saturation_stress = 770e6,
+                                                         .saturation_barrier = 0.2625,
+                                                         .saturation_rate = 1e7};
+  return m;
+}
+
+struct Conditions {
+  double temperature, strain_rate;
+};
+constexpr Conditions matrix_of_tests[] = {{298.0, 1e-3}, {298.0, 1.0},  {298.0, 3e3}, {450.0, 0.1},
+                                          {450.0, 2e3},  {600.0, 1e-3}, {700.0, 1e3}, {800.0, 0.1}};
+
+/// A normal deviate by Box and Muller's transformation: the same on every machine, unlike std::normal_distribution.
+class Noise {
+ public:
+  explicit Noise(std::uint64_t seed) : random_(seed) {}
+  double operator()() {
+    const double u = (static_cast<double>(random_() >> 11) + 0.5) * 0x1p-53, v = static_cast<double>(random_() >> 11) * 0x1p-53;
+    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+/// Eight curves of twelve points, with normal errors of a standard deviation relative to the stress.
+Calibration synthetic(const Material& truth, double deviation, std::uint64_t seed, std::vector<FitParameter> parameters) {
+  Calibration c;
+  c.file.material = truth;
+  c.parameters = std::move(parameters);
+  c.data = "synthetic";
+  c.residual = Residual::relative;
+  Noise noise(seed);
+  for (const Conditions& at : matrix_of_tests) {
+    Test test{"", "", at.temperature, at.strain_rate, 0.0, {}, {}};
+    for (int i = 1; i <= 12; ++i) test.plastic_strain.push_back(0.004 * i * i);
+    test.stress = flow_curve(truth, test, c.protocol, test.plastic_strain);
+    for (double& stress : test.stress) stress *= 1.0 + deviation * noise();
+    c.tests.push_back(test);
+  }
+  return c;
+}
+
+std::vector<FitParameter> johnson_cook_parameters() {
+  return {{"flow_stress.A", 20e6, 300e6, 150e6},
+          {"flow_stress.B", 50e6, 800e6, 500e6},
+          {"flow_stress.n", 0.05, 1.0, 0.6},
+          {"flow_stress.C", 0.0, 0.1, 0.01},
+          {"flow_stress.m", 0.3, 3.0, 0.8}};
+}
+std::vector<FitParameter> threshold_stress_parameters() {
+  return {{"flow_stress.athermal_stress", 0.0, 150e6, 20e6},
+          {"flow_stress.a0", 500e6, 6e9, 3.5e9, true},
+          {"flow_stress.saturation_stress", 300e6, 2e9, 1.2e9},
+          {"flow_stress.saturation_barrier", 0.05, 1.0, 0.5, true},
+          {"flow_stress.evolving_barrier", 0.5, 5.0, 2.5, true}};
+}
+std::vector<double> values(Material material, const std::vector<FitParameter>& parameters) {
+  std::vector<double> result;
+  for (const FitParameter& p : parameters) result.push_back(*find_parameter(material, p.key));
+  return result;
+}
+
+// Data without errors leave only the tolerance of the search, 1e-9 of a parameter's range, and its propagation.
+constexpr double search_tolerance = 1e-5;
+
+TEST(Calibration, FindsJohnsonCookParametersFromExactData) {
+  const Material truth = johnson_cook();
+  const auto expected = values(truth, johnson_cook_parameters());
+  const Fit fit = calibrate(synthetic(truth, 0.0, 1, johnson_cook_parameters()));
+  EXPECT_TRUE(fit.converged);
+  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(fit.estimates[k].value / expected[k], 1.0, search_tolerance);
+}
+
+TEST(Calibration, FindsThresholdStressParametersFromExactData) {
+  const Material truth = threshold_stress();
+  const auto expected = values(truth, threshold_stress_parameters());
+  const Fit fit = calibrate(synthetic(truth, 0.0, 1, threshold_stress_parameters()));
+  EXPECT_TRUE(fit.converged);
+  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(fit.estimates[k].value / expected[k], 1.0, search_tolerance);
+}
+
+/// A 95 % interval that is right misses the truth in 5 of 100 samples on average. Over all parameters 90 to 98 of 100 must hit;
+/// a single one, whose count has a standard deviation of 2.2, may fall three of these below 95.
+void expect_coverage(const Material& truth, const std::vector<FitParameter>& parameters, std::uint64_t first_seed) {
+  constexpr int samples = 100, fewest_of_one = 88;
+  constexpr double fewest = 90.0, most = 98.0, deviation = 0.02;
+  const auto expected = values(truth, parameters);
+  std::vector<int> covered(parameters.size(), 0);
+  double deviation_found = 0.0;
+  for (int sample = 0; sample < samples; ++sample) {
+    const Fit fit = calibrate(synthetic(truth, deviation, first_seed + static_cast<std::uint64_t>(sample), parameters));
+    deviation_found += fit.residual_deviation / samples;
+    for (std::size_t k = 0; k < expected.size(); ++k)
+      covered[k] += fit.estimates[k].lower_95 <= expected[k] && expected[k] <= fit.estimates[k].upper_95;
+  }
+  EXPECT_NEAR(deviation_found / deviation, 1.0, 0.03);  // its own deviation is 1/sqrt(2 91 100) = 0.7 %
+  double mean = 0.0;
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    std::printf("%s: %d of %d intervals cover the truth\n", parameters[k].key.c_str(), covered[k], samples);
+    EXPECT_GE(covered[k], fewest_of_one) << parameters[k].key;
+    mean += covered[k] / static_cast<double>(expected.size());
+  }
+  EXPECT_GE(mean, fewest);
+  EXPECT_LE(mean, most);
+}
+
+TEST(Calibration, IntervalsOfJohnsonCookParametersCoverTheTruth) {
+  expect_coverage(johnson_cook(), johnson_cook_parameters(), 1);
+}
+TEST(Calibration, IntervalsOfThresholdStressParametersCoverTheTruth) {
+  expect_coverage(threshold_stress(), threshold_stress_parameters(), 1);
+}
+
+TEST(Calibration, SaysWhichParametersTheTestsDoNotTell) {
+  // One rate, one temperature: the rate factor and the strengths are one product.
+  Calibration c = synthetic(johnson_cook(), 0.01, 5, johnson_cook_parameters());
+  c.tests = {c.tests[1], c.tests[1]};
+  c.tests[0].strain_rate = c.tests[1].strain_rate = 0.5;  // isothermal at the reference temperature, below the reference rate
+  const Fit fit = calibrate(c);
+  EXPECT_TRUE(fit.estimates[0].identifiable);
+  EXPECT_TRUE(fit.estimates[1].identifiable);
+  EXPECT_FALSE(fit.estimates[3].identifiable);  // C
+  EXPECT_FALSE(fit.estimates[4].identifiable);  // m
+  EXPECT_TRUE(std::isinf(fit.estimates[3].standard_error));
+  ASSERT_FALSE(fit.warnings.empty());
+  EXPECT_NE(fit.warnings.front().find("flow_stress.C, flow_stress.m"), std::string::npos) << fit.warnings.front();
+}
+
+TEST(Calibration, SaysWhichParametersAreAtABound) {
+  auto parameters = johnson_cook_parameters();
+  parameters[3].upper = 0.015;  // the truth is 0.025
+  const Fit fit = calibrate(synthetic(johnson_cook(), 0.01, 6, parameters));
+  EXPECT_TRUE(fit.estimates[3].at_bound);
+  EXPECT_EQ(fit.estimates[3].value, 0.015);
+  EXPECT_FALSE(fit.estimates[0].at_bound);
+  ASSERT_FALSE(fit.warnings.empty());
+  EXPECT_NE(fit.warnings.front().find("flow_stress.C is at its upper bound"), std::string::npos) << fit.warnings.front();
+}
+
+TEST(Calibration, FewerPointsThanParametersAreRefused) {
+  Calibration c = synthetic(johnson_cook(), 0.0, 1, johnson_cook_parameters());
+  c.tests.resize(1);
+  c.tests[0].plastic_strain.resize(5), c.tests[0].stress.resize(5);
+  EXPECT_THROW(calibrate(c), std::invalid_argument);
+}
+
+TEST(FlowCurve, AgreesWithTheUpdateInUniaxialStress) {
+  // The curve leaves out the elastic part of the strain rate: for copper, hardening over Young's modulus is up to 2 % once
+  // yield is past, and the stress depends on the logarithm of the rate; steps of the update add an error of first order.
+  constexpr double neglected = 1e-3;
+  for (const Material& material : {johnson_cook(), threshold_stress()}) {
+    for (const Conditions& at : {Conditions{298.0, 3e3}, Conditions{298.0, 1e-3}}) {
+      const driver::Test test{"", "", at.temperature, at.strain_rate, 0.0, {}, {}};
+      const Protocol protocol;
+      LoadingPath path;
+      path.temperature = at.temperature;
+      path.heat = at.strain_rate >= protocol.adiabatic_from ? Heat::adiabatic : Heat::isothermal;
+      path.strain_increment = 1e-4;
+      path.output.every = 1;
+      PathSegment load;
+      load.velocity_gradient.xx = -at.strain_rate;
+      SymmetricTensor<double> yy, zz;
+      yy.yy = 1.0, zz.zz = 1.0;
+      load.free = {{to_tensor(yy), yy, {}, 0.0}, {to_tensor(zz), zz, {}, 0.0}};
+      load.until = Until{"plastic_strain", 0.3};
+      path.segments.push_back(load);
+      History history(material, path.output);
+      follow(material, path, history);
+      const auto &strain = history.record().find("plastic_strain")->values,
+                 &stress = history.record().find("stress_xx")->values;
+      std::vector<double> wanted, expected;
+      for (std::size_t i = 0; i < strain.size(); i += 100)
+        if (strain[i] > 0.01) wanted.push_back(strain[i]), expected.push_back(std::fabs(stress[i]));
+      ASSERT_GT(wanted.size(), 10u);
+      const auto curve = flow_curve(material, test, protocol, wanted);
+      for (std::size_t i = 0; i < curve.size(); ++i) EXPECT_NEAR(curve[i] / expected[i], 1.0, neglected) << wanted[i];
+    }
+  }
+}
+
+TEST(Calibration, ReadsACaseAndWritesAMaterialThatReadsBack) {
+  const Calibration c = read_calibration(BRISANCE_SOURCE_DIR "/data/cases/calibrate_6061_t6_johnson_cook.toml", {"starts=1"});
+  EXPECT_GT(c.tests.size(), 50u);
+  const Fit fit = calibrate(c);
+  EXPECT_TRUE(fit.converged);
+  const std::string text = write_material(fit.file);
+  EXPECT_NE(text.find("calibrated: "), std::string::npos);
+  InputFile written = InputFile::from_text(text, "calibrated.toml");
+  TableReader top = written.top();
+  Material back = read_material(top).material;
+  written.finish();
+  for (std::size_t k = 0; k < c.parameters.size(); ++k)
+    EXPECT_EQ(*find_parameter(back, c.parameters[k].key), fit.estimates[k].value);
+}
+
+}  // namespace
+}  // namespace brisance::driver

@@ -1,0 +1,300 @@
+// pointdriver as its users meet it: commands, files, messages and exit codes.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "driver/check.hpp"
+#include "driver/commands.hpp"
+#include "driver/hdf5_file.hpp"
+#include "driver/history.hpp"
+#include "models/input/csv.hpp"
+
+namespace brisance::driver {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path source = BRISANCE_SOURCE_DIR;
+
+struct Answer {
+  int code;
+  std::string out, err;
+};
+
+Answer call(std::vector<std::string> words) {
+  words.insert(words.begin(), "pointdriver");
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = run_command_line(static_cast<int>(argv.size()), argv.data());
+  std::fflush(stdout);
+  std::fflush(stderr);
+  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
+}
+
+/// A fresh directory of this test.
+fs::path scratch() {
+  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+  std::string name = std::string("brisance_") + info->test_suite_name() + "_" + info->name();
+  std::replace(name.begin(), name.end(), '/', '_');
+  const fs::path directory = fs::path(testing::TempDir()) / (name + "_" + std::to_string(getpid()));
+  fs::remove_all(directory);
+  fs::create_directories(directory);
+  return directory;
+}
+
+fs::path write_text(const fs::path& path, const std::string& text) {
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string path_file(const std::string& segments, const std::string& top = "") {
+  return "material = \"steel_4340.toml\"\nheat = \"adiabatic\"\n" + top + "[initial]\ntemperature = \"298 K\"\n" + segments;
+}
+const std::string pull = "[[segment]]\nmode = \"uniaxial_stress\"\nstrain_rate = 1000\nstrain = 0.02\n";
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(List, NamesEveryFolderAndLaw) {
+  const Answer a = call({"list"});
+  EXPECT_EQ(a.code, done);
+  for (const char* name : {"flow_stress", "johnson_cook", "mechanical_threshold_stress", "gurson_tvergaard_needleman", "tepla_f",
+                           "varshni_chen_gray", "jones_wilkins_lee", "drucker"})
+    EXPECT_TRUE(contains(a.out, name)) << name;
+}
+
+TEST(Describe, ShowsAllLawsOfAName) {
+  const Answer a = call({"describe", "johnson_cook"});
+  EXPECT_EQ(a.code, done);
+  EXPECT_TRUE(contains(a.out, "flow_stress/johnson_cook"));
+  EXPECT_TRUE(contains(a.out, "damage/johnson_cook"));
+  EXPECT_TRUE(contains(a.out, "Source:"));
+  EXPECT_FALSE(contains(call({"describe", "damage/johnson_cook"}).out, "flow_stress/johnson_cook"));
+}
+
+TEST(Describe, SuggestsWhatWasMeant) {
+  const Answer a = call({"describe", "jonson_cook"});
+  EXPECT_EQ(a.code, bad_input);
+  EXPECT_TRUE(contains(a.err, "did you mean \"johnson_cook\"")) << a.err;
+}
+
+TEST(CommandLine, RefusesWhatItDoesNotKnow) {
+  EXPECT_EQ(call({"dance"}).code, bad_input);
+  EXPECT_EQ(call({}).code, bad_input);
+  EXPECT_EQ(call({"run"}).code, bad_input);
+  EXPECT_EQ(call({"--help"}).code, done);
+}
+
+TEST(Run, WritesTheSameHistoryToCsvAndHdf5) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(directory / "pull.toml", path_file(pull));
+  ASSERT_EQ(call({"run", file, "-o", directory / "a.csv"}).code, done);
+  ASSERT_EQ(call({"run", file, "-o", directory / "a.h5"}).code, done);
+  const Record record = read_hdf5(directory / "a.h5");
+  const CsvFile csv = CsvFile::load(directory / "a.csv");
+  ASSERT_EQ(csv.column_names().size(), record.series.size());
+  ASSERT_GT(csv.rows(), 50u);
+  for (const Record::Series& series : record.series)
+    EXPECT_EQ(csv.numbers(series.name, Unit{series.unit}), series.values) << series.name;  // to the last bit
+  for (const auto& entry : fs::directory_iterator(directory)) EXPECT_NE(entry.path().extension(), ".part");
+}
+
+TEST(Run, KeepsAboutAsManyRowsAsAskedForAndTheEnds) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(directory / "pull.toml", path_file(pull, "") + "[output]\nrows = 20\n");
+  ASSERT_EQ(call({"run", file, "-o", directory / "a.csv"}).code, done);
+  const CsvFile csv = CsvFile::load(directory / "a.csv");
+  EXPECT_GE(csv.rows(), 20u);
+  EXPECT_LE(csv.rows(), 40u);
+  const std::vector<double> strain = csv.numbers("strain_xx", Unit::one);
+  EXPECT_EQ(strain.front(), 0.0);
+  EXPECT_NEAR(strain.back(), 0.02, 1e-12);
+}
+
+TEST(Run, TakesOverridesOfThePathAndOfTheMaterial) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(directory / "pull.toml", path_file(pull));
+  const auto end = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"run", file, "-o", directory / "a.csv"});
+    const Answer a = call(words);
+    EXPECT_EQ(a.code, done) << a.err;
+    return CsvFile::load(directory / "a.csv").numbers("stress_xx", Unit::Pa).back();
+  };
+  const double as_given = end({});
+  EXPECT_LT(end({"--set", "initial.temperature=600 K"}), 0.9 * as_given);
+  EXPECT_GT(end({"--set", "material.flow_stress.A=1.2 GPa"}), 1.2 * as_given);
+  EXPECT_NE(end({"--set", "segment.0.strain=0.01"}), as_given);
+}
+
+TEST(Run, ReportsEveryMistakeAtOnceWithItsPlace) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(directory / "bad.toml",
+                                   "material = \"steel_4340.toml\"\nheat = \"adiabatik\"\n[initial]\ntemperature = \"298 s\"\n"
+                                   "[[segment]]\nmode = \"uniaxial_stress\"\nstrain_rat = 1000\nstrain = 0.02\n");
+  const Answer a = call({"run", file});
+  EXPECT_EQ(a.code, bad_input);
+  EXPECT_TRUE(contains(a.err, "bad.toml:2:")) << a.err;
+  EXPECT_TRUE(contains(a.err, "did you mean \"adiabatic\"")) << a.err;
+  EXPECT_TRUE(contains(a.err, "bad.toml:4:")) << a.err;
+  EXPECT_TRUE(contains(a.err, "strain_rat")) << a.err;
+  EXPECT_EQ(a.out, "");
+}
+
+TEST(Run, RefusesPathsThatMakeNoSense) {
+  const fs::path directory = scratch();
+  const auto error = [&](const std::string& segment) {
+    const Answer a = call({"run", write_text(directory / "bad.toml", path_file(segment))});
+    EXPECT_EQ(a.code, bad_input) << segment;
+    return a.err;
+  };
+  EXPECT_TRUE(contains(error(""), "[[segment]]"));
+  EXPECT_TRUE(contains(error("[[segment]]\nmode = \"hold\"\n"), "no end"));
+  EXPECT_TRUE(contains(error("[[segment]]\nduration = 1\n"), "nothing drives"));
+  EXPECT_TRUE(contains(error("[[segment]]\nmode = \"uniaxial_strain\"\nstrain_rate = 1\nuntil = { stres = 0 }\n"), "did you mean"));
+  EXPECT_TRUE(contains(error("[[segment]]\nstrain_rate = { xx = 1 }\nstress = { xx = 0 }\nduration = 1\n"), "prescribed as well"));
+  EXPECT_TRUE(contains(error("[[segment]]\ndeformation_gradient = { xx = -1 }\nduration = 1\n"), "determinant"));
+  EXPECT_TRUE(contains(error("[[segment]]\nmode = \"hydrostatic\"\npressure = \"1 GPa\"\nuntil = { pressure = 1 }\n"), "duration"));
+  EXPECT_TRUE(contains(error(pull + "temperature_rate = 5\n"), "prescribed"));
+}
+
+TEST(Run, SaysWhatIsMissing) {
+  const Answer a = call({"run", "there_is_no_such.toml"});
+  EXPECT_EQ(a.code, bad_input);
+  EXPECT_TRUE(contains(a.err, "there_is_no_such.toml")) << a.err;
+  EXPECT_EQ(call({"run", (source / "data/cases/point_cycle.toml").string(), "-o", scratch() / "a.txt"}).code, bad_input);
+}
+
+TEST(Run, FailsWithTheFactsAndKeepsTheHistory) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(directory / "pull.toml",
+                                   path_file("[[segment]]\nmode = \"uniaxial_stress\"\nstress = \"5 GPa\"\nduration = \"1 ms\"\n"));
+  const Answer a = call({"run", file, "-o", directory / "a.csv"});
+  EXPECT_EQ(a.code, failed_while_running);
+  EXPECT_TRUE(contains(a.err, "segment 1")) << a.err;
+  EXPECT_GT(CsvFile::load(directory / "a.csv").rows(), 5u);
+}
+
+TEST(Run, StopsAtFailureOrGoesOnAsAsked) {
+  const fs::path directory = scratch();
+  const std::string far = "[[segment]]\nmode = \"uniaxial_stress\"\nstrain_rate = 1000\nstrain = 3.0\n";
+  const fs::path file = write_text(directory / "pull.toml", path_file(far));
+  const Answer stopped = call({"run", file, "-o", directory / "stopped.csv"});
+  EXPECT_EQ(stopped.code, done) << stopped.err;
+  EXPECT_TRUE(contains(stopped.out, "failed by")) << stopped.out;
+  const Answer went_on = call({"run", file, "--set", "on_failure=continue", "-o", directory / "went_on.csv"});
+  EXPECT_EQ(went_on.code, done) << went_on.err;
+  EXPECT_TRUE(contains(went_on.out, "failed by")) << went_on.out;
+  const auto end = [&](const char* name) { return CsvFile::load(directory / name).numbers("strain_xx", Unit::one).back(); };
+  EXPECT_LT(end("stopped.csv"), 2.9);
+  EXPECT_NEAR(end("went_on.csv"), 3.0, 1e-9);
+}
+
+TEST(Run, ComparesWithTheRateForm) {
+  const fs::path directory = scratch();
+  const Answer a = call({"run", write_text(directory / "pull.toml", path_file(pull)), "--reference"});
+  EXPECT_EQ(a.code, done) << a.err;
+  EXPECT_TRUE(contains(a.out, "rate form")) << a.out;
+}
+
+TEST(Run, KeepsTheHistoryWhenInterrupted) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(
+      directory / "long.toml", path_file("[[segment]]\nmode = \"simple_shear\"\nshear_rate = 1\nduration = 1e6\n",
+                                         "strain_increment = 1e-6\n") + "[output]\nrows = 100\n");
+  const fs::path history = directory / "a.csv";
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    std::string words[] = {"pointdriver", "run", file, "-o", history};
+    char* argv[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), words[4].data()};
+    if (!std::freopen("/dev/null", "w", stdout)) _exit(99);
+    const int code = run_command_line(5, argv);
+    _exit(code);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), interrupted);
+  EXPECT_GT(CsvFile::load(history).rows(), 10u);
+}
+
+TEST(Sweep, RunsTheFullProductAndWritesATable) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(directory / "sweep.toml", path_file(pull) + "[sweep]\n\"initial.temperature\" = [200, 298, 500]\n"
+                                                                               "\"material.flow_stress.A\" = [\"700 MPa\", 8e8]\n");
+  const Answer a = call({"run", file, "-o", directory / "out", "--plot", directory / "sweep.png"});
+  EXPECT_EQ(a.code, done) << a.err;
+  const CsvFile table = CsvFile::load(directory / "out/sweep.csv");
+  EXPECT_EQ(table.rows(), 6u);
+  EXPECT_TRUE(fs::exists(directory / "out/member_006.csv"));
+  EXPECT_GT(fs::file_size(directory / "sweep.png"), 1000u);
+  const std::vector<double> stress = table.numbers("equivalent_stress", Unit::Pa);
+  EXPECT_LT(stress[0], stress[1]);  // the last key runs fastest: 700 MPa, then 800
+  EXPECT_GT(stress[0], stress[4]);  // 200 K, then 500 K
+}
+
+TEST(Sweep, FindsAMistakeInTheLastMemberBeforeTheFirstRuns) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(directory / "sweep.toml", path_file(pull) + "[sweep]\n\"initial.temperature\" = [200, -5]\n");
+  const Answer a = call({"run", file});
+  EXPECT_EQ(a.code, bad_input);
+  EXPECT_EQ(a.out, "");
+}
+
+TEST(Check, FindsNoErrorInTheMaterialsOfTheProgram) {
+  for (const auto& entry : fs::directory_iterator(source / "data/materials"))
+    for (const Finding& finding : check_material(entry.path()))
+      EXPECT_NE(finding.verdict, Verdict::error) << entry.path().filename() << ": " << finding.subject << ": " << finding.text;
+}
+
+TEST(Check, FindsABulkModulusThatDoesNotBelong) {
+  const fs::path directory = scratch();
+  std::ifstream in(source / "data/materials/aluminium_6061_t6_johnson_cook.toml");
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  text.replace(text.find("76.1 GPa"), 8, "52.0 GPa");
+  const auto findings = check_material(write_text(directory / "wrong.toml", text));
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
+    return f.verdict == Verdict::warning && f.subject == "equation_of_state" && contains(f.text, "bulk modulus");
+  }));
+  EXPECT_EQ(call({"check", write_text(directory / "broken.toml", "density = 1\n")}).code, failed_while_running);
+}
+
+class EveryCase : public testing::TestWithParam<fs::path> {};
+
+TEST_P(EveryCase, Runs) {
+  const fs::path directory = scratch();
+  std::ifstream in(GetParam());
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const bool is_comparison = contains(text, "[experiment]"), is_sweep = contains(text, "[sweep]");
+  const fs::path output = is_sweep ? directory / "out" : directory / "history.csv";
+  const Answer a = call({is_comparison ? "compare" : "run", GetParam(), "-o", output, "--plot", directory / "figure.svg"});
+  EXPECT_EQ(a.code, done) << a.err;
+  EXPECT_TRUE(fs::exists(output));
+  EXPECT_GT(fs::file_size(directory / "figure.svg"), 1000u);
+}
+
+std::vector<fs::path> point_cases() {
+  std::vector<fs::path> cases;
+  for (const auto& entry : fs::directory_iterator(source / "data/cases")) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("point_") && name.ends_with(".toml")) cases.push_back(entry.path());
+  }
+  std::sort(cases.begin(), cases.end());
+  return cases;
+}
+INSTANTIATE_TEST_SUITE_P(Cases, EveryCase, testing::ValuesIn(point_cases()),
+                         [](const auto& info) { return info.param.stem().string(); });
+
+}  // namespace
+}  // namespace brisance::driver
