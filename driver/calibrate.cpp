@@ -218,10 +218,7 @@ class Cost : public ceres::CostFunction {
     if (jacobians && jacobians[0]) {
       using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
       const Matrix J = curves_.jacobian(parameters[0]);
-      if (J.cols() == 1)
-        std::copy(J.data(), J.data() + J.size(), jacobians[0]);
-      else
-        Eigen::Map<RowMajor>(jacobians[0], J.rows(), J.cols()) = J;
+      Eigen::Map<RowMajor>(jacobians[0], J.rows(), J.cols()) = J;
     }
     return std::all_of(residuals, residuals + num_residuals(), [](double r) { return std::isfinite(r); });
   }

@@ -51,8 +51,10 @@ int run_command_line(int argc, char** argv) {
   CLI::App* compare_command = app.add_subcommand("compare", "Measured stress-strain curves against material models");
   compare_command->add_option("CASE", comparison.file, "comparison file (TOML)")->required();
   compare_command->add_option("--set", comparison.overrides, "replace a value: key.0.key=value")->allow_extra_args(false);
-  compare_command->add_option("-o,--output", comparison.output, "NAME.csv of the errors of each test; NAME_points.csv goes beside it");
-  compare_command->add_option("--plot", comparison.figures, "figure, .png or .svg; may be given twice")->allow_extra_args(false);
+  compare_command->add_option("-o,--output", comparison.output,
+                              "NAME.csv of the errors of each test; NAME_points.csv goes beside it");
+  compare_command->add_option("--plot", comparison.figures, "figure, .png or .svg; may be given twice")
+      ->allow_extra_args(false);
   compare_command->callback([&] { code = run_comparison(comparison); });
 
   app.add_subcommand("list", "All laws, folder by folder")->callback([&] { code = list(); });
@@ -62,7 +64,8 @@ int run_command_line(int argc, char** argv) {
   calibrate_command->add_option("FIT", calibration.file, "calibration file (TOML)")->required();
   calibrate_command->add_option("--set", calibration.overrides, "replace a value: key.0.key=value")->allow_extra_args(false);
   calibrate_command->add_option("-o,--output", calibration.output, "material file with the parameters found");
-  calibrate_command->add_option("--plot", calibration.figures, "figure, .png or .svg; may be given twice")->allow_extra_args(false);
+  calibrate_command->add_option("--plot", calibration.figures, "figure, .png or .svg; may be given twice")
+      ->allow_extra_args(false);
   calibrate_command->callback([&] { code = run_calibration(calibration); });
 
   std::vector<std::filesystem::path> materials;

@@ -28,7 +28,8 @@ std::vector<Test> read_tests(const std::filesystem::path& path, const Columns& n
                              const std::map<std::string, std::string>& where) {
   const CsvFile csv = CsvFile::load(path);
   const std::vector<std::string> test = csv.texts(names.test), author = csv.texts(names.author);
-  const std::vector<double> temperature = csv.numbers(names.temperature, Unit::K), rate = csv.numbers(names.strain_rate, Unit::per_s),
+  const std::vector<double> temperature = csv.numbers(names.temperature, Unit::K),
+                            rate = csv.numbers(names.strain_rate, Unit::per_s),
                             strain = csv.numbers(names.plastic_strain, Unit::one), stress = csv.numbers(names.stress, Unit::Pa);
   const std::vector<double> pressure =
       names.pressure.empty() ? std::vector<double>(csv.rows(), 0.0) : csv.numbers(names.pressure, Unit::Pa);
@@ -36,7 +37,8 @@ std::vector<Test> read_tests(const std::filesystem::path& path, const Columns& n
   for (const auto& [column, value] : where) filters[column] = csv.texts(column);
   std::vector<Test> tests;
   for (std::size_t row = 0; row < csv.rows(); ++row) {
-    const bool wanted = std::all_of(where.begin(), where.end(), [&](const auto& w) { return filters[w.first][row] == w.second; });
+    const bool wanted =
+        std::all_of(where.begin(), where.end(), [&](const auto& w) { return filters[w.first][row] == w.second; });
     if (!wanted) continue;
     if (tests.empty() || tests.back().name != test[row])
       tests.push_back({test[row], author[row], temperature[row], rate[row], pressure[row], {}, {}});
@@ -123,8 +125,8 @@ TestResult compare_one(const Test& test, const Material& material, const Protoco
   }
   for (std::size_t i = 0; i < test.stress.size(); ++i)
     if (counts(test, i, protocol))
-      result.points.push_back({test.plastic_strain[i], test.stress[i],
-                               interpolate(result.plastic_strain, result.stress, test.plastic_strain[i])});
+      result.points.push_back(
+          {test.plastic_strain[i], test.stress[i], interpolate(result.plastic_strain, result.stress, test.plastic_strain[i])});
   return result;
 }
 
@@ -151,7 +153,8 @@ void print_tests(const Comparison& comparison, const Results& results) {
   fmt::print("{:14} {:>6} {:>9} {:>7} {:>7}", "author", "T, K", "rate, 1/s", "p, MPa", "points");
   for (const Model& model : comparison.models) fmt::print("   {:>29}", model.name);
   fmt::print("\n{:47}", "");
-  for (std::size_t m = 0; m < comparison.models.size(); ++m) fmt::print("   {:>7} {:>6} {:>7} {:>6}", "RMS,MPa", "norm.%", "RMS,%", "mean,%");
+  for (std::size_t m = 0; m < comparison.models.size(); ++m)
+    fmt::print("   {:>7} {:>6} {:>7} {:>6}", "RMS,MPa", "norm.%", "RMS,%", "mean,%");
   fmt::print("\n");
   for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
     const Test& test = comparison.tests[t];
@@ -172,8 +175,8 @@ void print_tests(const Comparison& comparison, const Results& results) {
 }
 
 void print_groups(const Comparison& comparison, const Results& results) {
-  fmt::print("{:26} {:18} {:>6} {:>7} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11}\n", "tests", "model", "tests", "points", "RMS,MPa",
-             "norm.,%", "RMS,%", "mean,%", "tests,%", "median,%", "within 10 %");
+  fmt::print("{:26} {:18} {:>6} {:>7} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11}\n", "tests", "model", "tests", "points",
+             "RMS,MPa", "norm.,%", "RMS,%", "mean,%", "tests,%", "median,%", "within 10 %");
   for (const double from : comparison.protocol.summary_from) {
     fmt::print("from a plastic strain of {:g}\n", from);
     for (const Group& group : groups())
@@ -193,7 +196,9 @@ void print_report(const Comparison& comparison, const Results& results, double w
   fmt::print("{}\n", comparison.title);
   fmt::print("uniaxial {}, isothermal below {:g} /s, adiabatic from there; stress at equal plastic strain, from {:g} on\n",
              protocol.compression ? "compression" : "tension", protocol.adiabatic_from, protocol.smallest_plastic_strain);
-  fmt::print("norm.: RMS over the test's mean stress; RMS and mean: of (computed - measured)/measured; tests: RMS of the tests' norm.\n\n");
+  fmt::print(
+      "norm.: RMS over the test's mean stress; RMS and mean: of (computed - measured)/measured; tests: RMS of the tests' "
+      "norm.\n\n");
   print_tests(comparison, results);
   fmt::print("\n");
   print_groups(comparison, results);
@@ -217,8 +222,10 @@ void write_results(const Comparison& comparison, const Results& results, const s
                 results.front()[t].points.size());
       for (const auto& model : results) {
         const Errors e = errors_of(model[t].points);
-        if (e.points > 0) out.print(",{},{},{},{},\"{}\"", e.rms, e.normalised_rms, e.relative_rms, e.relative_mean, model[t].note);
-        else out.print(",,,,,\"{}\"", model[t].note);
+        if (e.points > 0)
+          out.print(",{},{},{},{},\"{}\"", e.rms, e.normalised_rms, e.relative_rms, e.relative_mean, model[t].note);
+        else
+          out.print(",,,,,\"{}\"", model[t].note);
       }
       out.print("\n");
     }
@@ -231,10 +238,13 @@ void write_results(const Comparison& comparison, const Results& results, const s
     for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
       const Test& test = comparison.tests[t];
       for (std::size_t i = 0; i < test.stress.size(); ++i) {
-        out.print("{},{},{},{}", test.name, test.plastic_strain[i], test.stress[i], counts(test, i, comparison.protocol) ? 1 : 0);
+        out.print("{},{},{},{}", test.name, test.plastic_strain[i], test.stress[i],
+                  counts(test, i, comparison.protocol) ? 1 : 0);
         for (const auto& model : results)
-          if (!model[t].stress.empty()) out.print(",{}", interpolate(model[t].plastic_strain, model[t].stress, test.plastic_strain[i]));
-          else out.print(",");
+          if (!model[t].stress.empty())
+            out.print(",{}", interpolate(model[t].plastic_strain, model[t].stress, test.plastic_strain[i]));
+          else
+            out.print(",");
         out.print("\n");
       }
     }
@@ -269,7 +279,9 @@ std::vector<Choice> choices_for_figure(const Comparison& comparison) {
   const auto fast = [](const Test& t) { return t.strain_rate >= 900.0 && t.pressure == 0.0 && t.stress.size() > 5; };
   const auto by_temperature = [](const Test& t) { return std::round(t.temperature / 25.0); };
   const auto by_rate = [](const Test& t) { return std::floor(std::log10(t.strain_rate) + 1e-9); };
-  const auto room = [](const Test& t) { return std::abs(t.temperature - 297.0) < 5.0 && t.pressure == 0.0 && t.stress.size() > 5; };
+  const auto room = [](const Test& t) {
+    return std::abs(t.temperature - 297.0) < 5.0 && t.pressure == 0.0 && t.stress.size() > 5;
+  };
   const auto pressed = [&](const Test& t) {
     const bool author = std::any_of(tests.begin(), tests.end(),
                                     [&](const Test& other) { return other.author == t.author && other.pressure > 0.0; });
@@ -294,9 +306,11 @@ Panel error_panel(const Comparison& comparison, const Results& results) {
   });
   Panel panel{.title = "RMS error of each test over its mean stress", .y_label = "error (%)"};
   panel.wide = true;
+  panel.height = 1.25;
   panel.logarithmic_y = true;
-  panel.legend = "top left horizontal";
-  for (const std::size_t t : order) panel.x_names.push_back(fmt::format("{} {}", comparison.tests[t].author, conditions(comparison.tests[t])));
+  panel.legend = "inside left top horizontal";
+  for (const std::size_t t : order)
+    panel.x_names.push_back(fmt::format("{} {}", comparison.tests[t].author, conditions(comparison.tests[t])));
   const double end = static_cast<double>(order.size());
   for (std::size_t m = 0; m < results.size(); ++m) {
     Curve curve{comparison.models[m].name, {}, {}, m == 0 ? Mark::points : Mark::squares, static_cast<int>(m)};
@@ -384,9 +398,11 @@ Comparison read_comparison(const std::filesystem::path& file, const std::vector<
     p.adiabatic_from = protocol->number_or("adiabatic_from", p.adiabatic_from, {Unit::per_s, positive, "strain rate"});
     p.smallest_plastic_strain =
         protocol->number_or("smallest_plastic_strain", p.smallest_plastic_strain, {Unit::one, non_negative, "plastic strain"});
-    p.strain_increment = protocol->number_or("strain_increment", p.strain_increment,
-                                             {Unit::one, {.lower = 0.0, .upper = 0.05, .lower_open = true}, "strain of a step"});
-    if (auto from = protocol->optional_numbers("summary_from", {Unit::one, non_negative, "plastic strains"})) p.summary_from = *from;
+    p.strain_increment =
+        protocol->number_or("strain_increment", p.strain_increment,
+                            {Unit::one, {.lower = 0.0, .upper = 0.05, .lower_open = true}, "strain of a step"});
+    if (auto from = protocol->optional_numbers("summary_from", {Unit::one, non_negative, "plastic strains"}))
+      p.summary_from = *from;
   }
   for (TableReader& model : top.tables("model"))
     comparison.models.push_back({model.text("name", "for the table and the figure"), resolve_material(model, "material")});

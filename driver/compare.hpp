@@ -13,11 +13,11 @@ namespace brisance::driver {
 /// One measured curve and the conditions of its test.
 struct Test {
   std::string name, author;
-  double temperature = 0.0;                  // K
-  double strain_rate = 0.0;                  // 1/s
-  double pressure = 0.0;                     // Pa, superposed
-  std::vector<double> plastic_strain;        // measured points, in the order of the file
-  std::vector<double> stress;                // Pa, magnitude of the true stress over the superposed pressure
+  double temperature = 0.0;            // K
+  double strain_rate = 0.0;            // 1/s
+  double pressure = 0.0;               // Pa, superposed
+  std::vector<double> plastic_strain;  // measured points, in the order of the file
+  std::vector<double> stress;          // Pa, magnitude of the true stress over the superposed pressure
 };
 
 /// A model that the tests are compared with.
@@ -29,8 +29,8 @@ struct Model {
 /// How the tests are computed and which points count.
 struct Protocol {
   bool compression = true;
-  double adiabatic_from = 1.0;            // 1/s; below, a test is isothermal
-  double smallest_plastic_strain = 0.002; // below, a measurement is elastic loading, not flow
+  double adiabatic_from = 1.0;             // 1/s; below, a test is isothermal
+  double smallest_plastic_strain = 0.002;  // below, a measurement is elastic loading, not flow
   double strain_increment = 2e-4;
   std::vector<double> summary_from{0.002};  // the summary is made of the points from each of these plastic strains on
 };
@@ -65,7 +65,7 @@ Results compare(const Comparison& comparison);
 /// rms over the mean of the measured stress, which a few weak points at the foot of a curve do not rule.
 struct Errors {
   int points = 0;
-  double rms = 0.0;            // Pa
+  double rms = 0.0;  // Pa
   double normalised_rms = 0.0;
   double relative_rms = 0.0;
   double relative_mean = 0.0;  // positive where the model is too strong
@@ -76,9 +76,9 @@ Errors errors_of(const std::vector<ComparedPoint>& points);
 struct GroupErrors {
   int tests = 0;
   Errors all_points;
-  double rms_of_tests = 0.0;     // of each test's normalised RMS
+  double rms_of_tests = 0.0;  // of each test's normalised RMS
   double median_of_tests = 0.0;
-  int within_10_percent = 0;     // tests
+  int within_10_percent = 0;  // tests
 };
 GroupErrors errors_of_group(const std::vector<Test>& tests, const std::vector<TestResult>& results,
                             const std::function<bool(const Test&)>& belongs, double smallest_plastic_strain);

@@ -12,10 +12,10 @@
 namespace brisance::driver {
 namespace {
 
-constexpr int fewest_steps = 50;        // of a segment of known duration
-constexpr int most_halvings = 30;       // of one step
-constexpr long most_steps = 20'000'000; // of a segment: an `until` that is never reached ends here
-constexpr double growth = 1.5;          // of the step after a success
+constexpr int fewest_steps = 50;         // of a segment of known duration
+constexpr double smallest_step = 1e-9;   // of the first step of a segment: smaller ones do not lead anywhere
+constexpr long most_steps = 20'000'000;  // of a segment: an `until` that is never reached ends here
+constexpr double growth = 1.5;           // of the step after a success
 
 /// ln A for A near the identity: 2 artanh((A - I)(A + I)^-1).
 Tensor<double> logarithm(const Tensor<double>& A) {
@@ -109,7 +109,8 @@ class Traveller {
       ++outcome_.steps;
       const bool failed_now = note_failure();
       const bool stop = failed_now && path_.on_failure == OnFailure::stop;
-      const bool interrupted = options_.watcher && (outcome_.steps % 256 == 0) && !options_.watcher(number_, time_, outcome_.steps);
+      const bool interrupted =
+          options_.watcher && (outcome_.steps % 256 == 0) && !options_.watcher(number_, time_, outcome_.steps);
       if (stop) outcome_.ending = Ending::failure;
       if (interrupted) outcome_.ending = Ending::interrupted;
       record(reached || time_ >= end || stop || interrupted || failed_now);
@@ -151,9 +152,10 @@ class Traveller {
       if (norm(f.stress_weight) == 0.0) continue;
       const double scale = std::max(norm(state_.stress), 1e-9 * point_.bulk_modulus) * norm(f.stress_weight);
       if (std::abs(start_.targets[k] - f.target) > 1e-6 * scale)
-        throw RunError(fmt::format("{}: a prescribed stress is {:.5g} Pa at the start and must become {:.5g} Pa; give a duration, "
-                                   "over which it changes linearly",
-                                   segment.where, start_.targets[k], f.target));
+        throw RunError(
+            fmt::format("{}: a prescribed stress is {:.5g} Pa at the start and must become {:.5g} Pa; give a duration, "
+                        "over which it changes linearly",
+                        segment.where, start_.targets[k], f.target));
     }
   }
 
@@ -185,20 +187,23 @@ class Traveller {
 
   Step step_with_halving(const PathSegment& segment, double dt) {
     constexpr double slack = 1.5;  // free components may take a step a little over the limit
+    const double asked = dt, smallest = std::min(dt, smallest_step * first_dt(segment));
     ControlledStep result;
-    const double asked = dt;
-    for (int halving = 0; halving <= most_halvings; ++halving, dt *= 0.5) {
+    for (; dt >= smallest; dt *= 0.5) {
       result = attempt(segment, dt, warm_);
       if (result.converged && norm(result.velocity_gradient) * dt <= slack * path_.strain_increment) return {dt, result};
     }
-    if (result.converged) return {dt, result};
-    const std::string why = result.trouble != Trouble::none
-                                ? std::string(describe(result.trouble))
-                                : fmt::format("the prescribed stress cannot be held: the largest miss is {:.3g} of the stress "
-                                              "scale; the material may not be able to carry it",
-                                              result.residual);
-    throw RunError(fmt::format("{}: no step down to {:.3g} s (from {:.3g} s) succeeds at {}: {}", segment.where, dt, asked,
-                               facts(state_, time_), why));
+    throw RunError(fmt::format("{}: no step from {:.3g} s down to {:.3g} s succeeds at {}: {}", segment.where, asked, smallest,
+                               facts(state_, time_), reason(result)));
+  }
+
+  static std::string reason(const ControlledStep& result) {
+    if (result.converged) return "however short the step, its deformation stays large; the material gives way";
+    if (result.trouble != Trouble::none) return std::string(describe(result.trouble));
+    return fmt::format(
+        "a prescribed stress cannot be held: it is missed by {:.3g} of the stress scale; the material may not be "
+        "able to carry it",
+        result.residual);
   }
 
   double watched_value(const Column& column, const Point<double>& point, double time) const {
@@ -212,22 +217,22 @@ class Traveller {
     const double after = watched_value(column, accepted_point(step.result, segment, step.dt), time_ + step.dt) - target;
     if (after == 0.0) return true;
     if (before == 0.0 || (before > 0.0) == (after > 0.0)) return false;
-    double low = 0.0, high = step.dt, f_low = before, f_high = after;
+    double low = 0.0, high = step.dt, f_low = before, f_high = after, f = after;
     const double tolerance = 1e-12 * std::max(std::abs(target), std::abs(after - before));
-    for (int iteration = 0; iteration < 60 && std::abs(f_high) > tolerance && high - low > 1e-13 * step.dt; ++iteration) {
+    for (int iteration = 0; iteration < 60 && std::abs(f) > tolerance && high - low > 1e-14 * high; ++iteration) {
       const double dt = high - f_high * (high - low) / (f_high - f_low);
       WarmStart warm = warm_;
       const ControlledStep trial = attempt(segment, dt, warm);
       if (!trial.converged) break;
-      const double f = watched_value(column, accepted_point(trial, segment, dt), time_ + dt) - target;
+      step = {dt, trial};
+      f = watched_value(column, accepted_point(trial, segment, dt), time_ + dt) - target;
       if ((f > 0.0) == (f_low > 0.0)) {
         low = dt, f_low = f;
         f_high *= 0.5;  // Illinois: the end that stays loses weight
-        continue;
+      } else {
+        high = dt, f_high = f;
+        f_low *= 0.5;
       }
-      f_low *= (f > 0.0) == (f_high > 0.0) ? 0.5 : 1.0;
-      high = dt, f_high = f;
-      step = {dt, trial};
     }
     return true;
   }
@@ -259,9 +264,7 @@ class Traveller {
     return true;
   }
 
-  void record(bool keep_always) {
-    history_.record({point_, time_, static_cast<double>(number_), accumulated_}, keep_always);
-  }
+  void record(bool keep_always) { history_.record({point_, time_, static_cast<double>(number_), accumulated_}, keep_always); }
 
   const LoadingPath& path_;
   Material material_;  // a copy: its heating may be switched off

@@ -29,7 +29,9 @@ void require(herr_t status, std::string_view what) {
 }
 
 /// The library prints its own error stack unless told not to; errors are raised by `require` and Handle.
-void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void silence() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* names) {
   static_cast<std::vector<std::string>*>(names)->emplace_back(name);

@@ -22,8 +22,8 @@ SymmetricTensor<double> logarithmic_strain(const Tensor<double>& F) {
   Eigen::Matrix3d matrix;
   matrix << B.xx, B.xy, B.xz, B.xy, B.yy, B.yz, B.xz, B.yz, B.zz;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
-  const Eigen::Matrix3d strain =
-      solver.eigenvectors() * (0.5 * solver.eigenvalues().array().log()).matrix().asDiagonal() * solver.eigenvectors().transpose();
+  const Eigen::Matrix3d strain = solver.eigenvectors() * (0.5 * solver.eigenvalues().array().log()).matrix().asDiagonal() *
+                                 solver.eigenvectors().transpose();
   return {strain(0, 0), strain(1, 1), strain(2, 2), strain(1, 2), strain(0, 2), strain(0, 1)};
 }
 
@@ -37,8 +37,12 @@ void add_components(std::vector<Column>& columns, std::string_view name, std::st
                        [tensor_of, m = member](const Sample& s) { return tensor_of(s.point).*m; }});
 }
 
-double pressure_of(const Point<double>& p) { return -trace(p.state.stress) / 3.0; }
-double equivalent_of(const Point<double>& p) { return equivalent_stress(deviator(p.state.stress)); }
+double pressure_of(const Point<double>& p) {
+  return -trace(p.state.stress) / 3.0;
+}
+double equivalent_of(const Point<double>& p) {
+  return equivalent_stress(deviator(p.state.stress));
+}
 
 /// The history columns that the laws of this material declare.
 void add_law_columns(std::vector<Column>& columns, const Material& material) {
@@ -79,7 +83,8 @@ std::vector<Column> columns_of(const Material& material) {
     const double q = equivalent_of(s.point);
     return q > 0.0 ? -pressure_of(s.point) / q : 0.0;
   });
-  add_components(columns, "strain", "1", [](const Point<double>& p) { return logarithmic_strain(p.state.deformation_gradient); });
+  add_components(columns, "strain", "1",
+                 [](const Point<double>& p) { return logarithmic_strain(p.state.deformation_gradient); });
   add("accumulated_strain", "1", [](const S& s) { return s.accumulated_strain; });
   constexpr std::pair<std::string_view, double F::*> components[] = {{"xx", &F::xx}, {"xy", &F::xy}, {"xz", &F::xz},
                                                                      {"yx", &F::yx}, {"yy", &F::yy}, {"yz", &F::yz},

@@ -73,7 +73,6 @@ class History {
 void write(const Record& table, const std::filesystem::path& path);
 void write_csv(const Record& table, const std::filesystem::path& path);
 
-
 /// Calls write_to(temporary path), then moves the result to its name.
 void replace_file(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write_to);
 

@@ -37,9 +37,12 @@ std::string range_of(const Interval& interval) {
     return listed(choices<T>);
   } else {
     const std::string words = std::isinf(interval.lower) && std::isinf(interval.upper) ? "any" : describe(interval);
-    if constexpr (std::is_same_v<T, Table>) return words + ", or a table";
-    else if constexpr (!std::is_arithmetic_v<T>) return fmt::format("{} numbers, {}", std::tuple_size_v<T>, words);
-    else return words;
+    if constexpr (std::is_same_v<T, Table>)
+      return words + ", or a table";
+    else if constexpr (!std::is_arithmetic_v<T>)
+      return fmt::format("{} numbers, {}", std::tuple_size_v<T>, words);
+    else
+      return words;
   }
 }
 

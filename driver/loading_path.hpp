@@ -34,15 +34,15 @@ struct Until {
 };
 
 struct PathSegment {
-  std::string where;                                  // where it stands in the input, for messages
-  Tensor<double> velocity_gradient;                   // 1/s
+  std::string where;                 // where it stands in the input, for messages
+  Tensor<double> velocity_gradient;  // 1/s
   std::vector<FreeDirection> free;
-  std::optional<Tensor<double>> deformation_gradient; // F at the end; overrides velocity_gradient
-  std::optional<double> duration;                     // s
+  std::optional<Tensor<double>> deformation_gradient;  // F at the end; overrides velocity_gradient
+  std::optional<double> duration;                      // s
   std::optional<Until> until;
-  std::optional<double> temperature;                  // K, set at the start
-  double temperature_jump = 0.0;                      // K, added at the start
-  double temperature_rate = 0.0;                      // K/s, with Heat::prescribed
+  std::optional<double> temperature;  // K, set at the start
+  double temperature_jump = 0.0;      // K, added at the start
+  double temperature_rate = 0.0;      // K/s, with Heat::prescribed
 };
 
 struct LoadingPath {

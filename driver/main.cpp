@@ -2,4 +2,6 @@
 
 #include "driver/commands.hpp"
 
-int main(int argc, char** argv) { return brisance::driver::run_command_line(argc, argv); }
+int main(int argc, char** argv) {
+  return brisance::driver::run_command_line(argc, argv);
+}

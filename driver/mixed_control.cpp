@@ -92,7 +92,8 @@ struct Problem {
       const Condition& c = control.conditions[k];
       if (const double weight = norm(c.stress_weight); weight > 0.0)
         stress_scale = std::max(stress_scale, std::abs(c.target) / weight);
-      if (const double weight = norm(c.rate_weight); weight > 0.0) rate_scale = std::max(rate_scale, std::abs(c.target) / weight);
+      if (const double weight = norm(c.rate_weight); weight > 0.0)
+        rate_scale = std::max(rate_scale, std::abs(c.target) / weight);
     }
     if (!(stress_scale > 0.0)) stress_scale = 1.0;
   }
@@ -176,8 +177,10 @@ ControlledStep controlled_step(PointUpdate& update, const State<double>& before,
   result.residual = at.size;
   result.velocity_gradient = at.L;
   result.point = at.point;
-  if (result.converged) warm.x = x;
-  else warm = {};
+  if (result.converged)
+    warm.x = x;
+  else
+    warm = {};
   return result;
 }
 

@@ -26,7 +26,7 @@ struct Control {
 
 /// What the solver remembers from step to step: it starts from the last solution and the last Jacobian.
 struct WarmStart {
-  std::array<double, Control::capacity> x{};                              // 1/s
+  std::array<double, Control::capacity> x{};                             // 1/s
   std::array<double, Control::capacity * Control::capacity> jacobian{};  // residual per strain
   bool has_jacobian = false;
 };
@@ -34,10 +34,10 @@ struct WarmStart {
 /// The outcome of a controlled step.
 struct ControlledStep {
   bool converged = false;
-  Trouble trouble = Trouble::none;  // of the update, when that is the reason
-  double residual = 0.0;            // largest violated condition over the stress scale
-  Tensor<double> velocity_gradient; // 1/s
-  Point<double> point;              // after the step
+  Trouble trouble = Trouble::none;   // of the update, when that is the reason
+  double residual = 0.0;             // largest violated condition over the stress scale
+  Tensor<double> velocity_gradient;  // 1/s
+  Point<double> point;               // after the step
 };
 
 /// Conditions on the stress hold to this fraction of the stress scale: the largest of |sigma|, the targets, and 1e-6 K.

@@ -34,16 +34,26 @@ struct GeneralComponent {
 struct SymmetricComponent {
   std::string_view name;
   double S::*member;
-  T direction;      // of L, without spin
-  S weight;         // weight : sigma is the component
+  T direction;  // of L, without spin
+  S weight;     // weight : sigma is the component
 };
-constexpr std::array<GeneralComponent, 9> general_components{{{"xx", &T::xx}, {"xy", &T::xy}, {"xz", &T::xz},
-                                                              {"yx", &T::yx}, {"yy", &T::yy}, {"yz", &T::yz},
-                                                              {"zx", &T::zx}, {"zy", &T::zy}, {"zz", &T::zz}}};
+constexpr std::array<GeneralComponent, 9> general_components{{{"xx", &T::xx},
+                                                              {"xy", &T::xy},
+                                                              {"xz", &T::xz},
+                                                              {"yx", &T::yx},
+                                                              {"yy", &T::yy},
+                                                              {"yz", &T::yz},
+                                                              {"zx", &T::zx},
+                                                              {"zy", &T::zy},
+                                                              {"zz", &T::zz}}};
 
 std::array<SymmetricComponent, 6> symmetric_components() {
-  std::array<SymmetricComponent, 6> all{{{"xx", &S::xx, {}, {}}, {"yy", &S::yy, {}, {}}, {"zz", &S::zz, {}, {}},
-                                         {"yz", &S::yz, {}, {}}, {"xz", &S::xz, {}, {}}, {"xy", &S::xy, {}, {}}}};
+  std::array<SymmetricComponent, 6> all{{{"xx", &S::xx, {}, {}},
+                                         {"yy", &S::yy, {}, {}},
+                                         {"zz", &S::zz, {}, {}},
+                                         {"yz", &S::yz, {}, {}},
+                                         {"xz", &S::xz, {}, {}},
+                                         {"xy", &S::xy, {}, {}}}};
   for (SymmetricComponent& c : all) {
     c.weight.*c.member = c.name[0] == c.name[1] ? 1.0 : 0.5;  // a shear component stands twice in a double product
     S unit;
@@ -72,7 +82,9 @@ struct Driven {
 };
 
 /// The condition that holds a component of the stress at the end of the segment.
-FreeDirection held(const SymmetricComponent& c, double target) { return {c.direction, c.weight, {}, target}; }
+FreeDirection held(const SymmetricComponent& c, double target) {
+  return {c.direction, c.weight, {}, target};
+}
 
 T general_tensor(TableReader table, const Quantity& quantity, T start = {}) {
   for (const GeneralComponent& c : general_components) start.*c.member = table.number_or(c.name, start.*c.member, quantity);
@@ -133,7 +145,8 @@ void read_components(TableReader& in, PathSegment& segment, Driven& driven) {
     if (determinant(*segment.deformation_gradient) <= 0.0)
       in.problem("deformation_gradient", "its determinant must be > 0: matter does not vanish or turn inside out");
     if (!in.has("duration")) in.problem("deformation_gradient", "it is reached at the end of a duration; give `duration`");
-    if (!segment.free.empty()) in.problem("deformation_gradient", "it leaves nothing free for a prescribed stress; remove `stress`");
+    if (!segment.free.empty())
+      in.problem("deformation_gradient", "it leaves nothing free for a prescribed stress; remove `stress`");
   }
   double largest = 0.0;
   for (const SymmetricComponent& c : all) {
@@ -186,10 +199,12 @@ void read_simple_shear(TableReader& in, PathSegment& segment, Driven& driven) {
 
 void read_hydrostatic(TableReader& in, PathSegment& segment, Driven& driven) {
   if (in.has("pressure")) {
-    FreeDirection all{T::identity(), (-1.0 / 3.0) * S::identity(), {}, in.number("pressure", {Unit::Pa, any_value, "pressure"})};
+    FreeDirection all{
+        T::identity(), (-1.0 / 3.0) * S::identity(), {}, in.number("pressure", {Unit::Pa, any_value, "pressure"})};
     segment.free.push_back(all);
   } else {
-    const double rate = in.number("volume_strain_rate", {Unit::per_s, any_value, "rate of ln(volume), negative in compression"});
+    const double rate =
+        in.number("volume_strain_rate", {Unit::per_s, any_value, "rate of ln(volume), negative in compression"});
     segment.velocity_gradient = (rate / 3.0) * T::identity();
     driven.rate = rate;
   }
@@ -201,11 +216,13 @@ void read_hydrostatic(TableReader& in, PathSegment& segment, Driven& driven) {
 /// a Lode angle of 0 in axisymmetric tension, 30 in shear, 60 in axisymmetric compression. The rate is the one conjugate to
 /// the equivalent stress.
 void read_constant_triaxiality(TableReader& in, PathSegment& segment, Driven& driven) {
-  const double triaxiality = in.number("triaxiality", {Unit::one, between(-100.0, 100.0), "mean stress over equivalent stress"});
+  const double triaxiality =
+      in.number("triaxiality", {Unit::one, between(-100.0, 100.0), "mean stress over equivalent stress"});
   const double lode = in.number_or("lode_angle", 0.0, {degree, between(0.0, 60.0), "Lode angle"}) * std::numbers::pi / 180.0;
   const double rate = in.number("strain_rate", {Unit::per_s, positive, "equivalent strain rate"});
   constexpr double third = 2.0 * std::numbers::pi / 3.0;
-  const S n{2.0 / 3.0 * std::cos(lode), 2.0 / 3.0 * std::cos(lode - third), 2.0 / 3.0 * std::cos(lode + third), 0, 0, 0};  // s/q
+  const S n{
+      2.0 / 3.0 * std::cos(lode), 2.0 / 3.0 * std::cos(lode - third), 2.0 / 3.0 * std::cos(lode + third), 0, 0, 0};  // s/q
   // The stress is q (n + triaxiality I) when it has no part along two directions at right angles to that.
   const S m{n.yy - n.zz, n.zz - n.xx, n.xx - n.yy, 0, 0, 0};
   const S l = add_to_diagonal(triaxiality * n, -double_dot(n, n) / 3.0);
@@ -282,7 +299,8 @@ struct Reader {
     if (in.has("until")) read_until(in, columns, driven, segment);
     if (!segment.duration && !segment.until) in.problem("the segment has no end; give duration, strain or until");
     segment.temperature = in.optional_number("temperature", {Unit::K, positive, "temperature from the start of the segment"});
-    segment.temperature_jump = in.number_or("temperature_jump", 0.0, {Unit::K, any_value, "jump of the temperature at the start"});
+    segment.temperature_jump =
+        in.number_or("temperature_jump", 0.0, {Unit::K, any_value, "jump of the temperature at the start"});
     if (in.has("temperature_rate")) {
       segment.temperature_rate = in.number("temperature_rate", {Unit{"K/s"}, any_value, "rate of the temperature"});
       if (path.heat != Heat::prescribed) in.problem("temperature_rate", "it needs heat = \"prescribed\"");
@@ -317,7 +335,8 @@ void read_initial(TableReader in, LoadingPath& path) {
   path.temperature = in.number("temperature", {Unit::K, positive, "initial temperature"});
   path.density = in.optional_number("density", {Unit::kg_per_m3, positive, "initial density, if not the material's"});
   path.plastic_strain = in.number_or("plastic_strain", 0.0, {Unit::one, non_negative, "initial plastic strain"});
-  path.porosity = in.number_or("porosity", 0.0, {Unit::one, {.lower = 0.0, .upper = 1.0, .upper_open = true}, "initial porosity"});
+  path.porosity =
+      in.number_or("porosity", 0.0, {Unit::one, {.lower = 0.0, .upper = 1.0, .upper_open = true}, "initial porosity"});
   path.damage = in.number_or("damage", 0.0, {Unit::one, fraction, "initial damage"});
   if (auto stress = in.optional_table("stress")) path.stress = symmetric_tensor(*stress, any_stress);
 }
@@ -351,8 +370,9 @@ PointCase read_case(const std::filesystem::path& file, const std::vector<std::st
   const Material& material = result.file.material;
   path.heat = top.choice<Heat>("heat");
   path.on_failure = top.choice<OnFailure>("on_failure", OnFailure::stop);
-  path.strain_increment = top.number_or("strain_increment", path.strain_increment,
-                                        {Unit::one, {.lower = 0.0, .upper = 0.05, .lower_open = true}, "largest strain of a step"});
+  path.strain_increment =
+      top.number_or("strain_increment", path.strain_increment,
+                    {Unit::one, {.lower = 0.0, .upper = 0.05, .lower_open = true}, "largest strain of a step"});
   path.cell_size = top.number_or("cell_size", 0.0, {Unit::m, non_negative, "length of the artificial viscosity; 0: none"});
   read_initial(top.table("initial", "the state at the start"), path);
   const std::vector<Column> columns = columns_of(material);
@@ -390,7 +410,8 @@ std::vector<SweepAxis> read_sweep(const std::filesystem::path& file) {
     problems.push_back({file.string(), node.place.line, node.place.column, key, what});
   };
   auto* table = std::get_if<TomlTable>(&sweep->node.value);
-  if (!table || table->entries.empty()) wrong(sweep->node, "sweep", "must be a table of lists, as in \"initial.temperature\" = [77, 298]");
+  if (!table || table->entries.empty())
+    wrong(sweep->node, "sweep", "must be a table of lists, as in \"initial.temperature\" = [77, 298]");
   for (const TomlEntry& entry : table ? table->entries : std::vector<TomlEntry>{}) {
     const auto* list = std::get_if<TomlList>(&entry.node.value);
     if (!list || list->empty()) {
@@ -399,10 +420,14 @@ std::vector<SweepAxis> read_sweep(const std::filesystem::path& file) {
     }
     SweepAxis axis{entry.key, {}};
     for (const TomlNode& value : *list) {
-      if (const auto* number = std::get_if<double>(&value.value)) axis.values.push_back(shortest_text(*number));
-      else if (const auto* whole = std::get_if<std::int64_t>(&value.value)) axis.values.push_back(fmt::format("{}", *whole));
-      else if (const auto* text = std::get_if<std::string>(&value.value)) axis.values.push_back(*text);
-      else wrong(value, entry.key, "holds something that is neither a number nor a text");
+      if (const auto* number = std::get_if<double>(&value.value))
+        axis.values.push_back(shortest_text(*number));
+      else if (const auto* whole = std::get_if<std::int64_t>(&value.value))
+        axis.values.push_back(fmt::format("{}", *whole));
+      else if (const auto* text = std::get_if<std::string>(&value.value))
+        axis.values.push_back(*text);
+      else
+        wrong(value, entry.key, "holds something that is neither a number nor a text");
     }
     axes_found.push_back(std::move(axis));
   }

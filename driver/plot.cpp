@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace brisance::driver {
@@ -36,10 +37,14 @@ std::string plain(const std::string& text) {
 std::string style_of(const Curve& curve) {
   const std::string_view colour = palette[static_cast<std::size_t>(curve.colour) % palette.size()];
   switch (curve.mark) {
-    case Mark::line: return fmt::format("with lines lw 2 lc rgb '{}'", colour);
-    case Mark::dashed: return fmt::format("with lines lw 2 dt (7,4) lc rgb '{}'", colour);
-    case Mark::points: return fmt::format("with points pt 6 ps 0.7 lw 1.2 lc rgb '{}'", colour);
-    case Mark::squares: return fmt::format("with points pt 4 ps 0.7 lw 1.2 lc rgb '{}'", colour);
+    case Mark::line:
+      return fmt::format("with lines lw 2 lc rgb '{}'", colour);
+    case Mark::dashed:
+      return fmt::format("with lines lw 2 dt (7,4) lc rgb '{}'", colour);
+    case Mark::points:
+      return fmt::format("with points pt 6 ps 0.7 lw 1.2 lc rgb '{}'", colour);
+    case Mark::squares:
+      return fmt::format("with points pt 4 ps 0.7 lw 1.2 lc rgb '{}'", colour);
   }
   return {};
 }
@@ -53,15 +58,14 @@ void draw_panel(Gnuplot& plot, const Panel& panel) {
   plot << (panel.logarithmic_x ? "set logscale x\nset format x '10^{%L}'\n" : "unset logscale x\nset format x '%g'\n");
   plot << (panel.logarithmic_y ? "set logscale y\n" : "unset logscale y\n");
   if (!panel.x_names.empty()) {
-    plot << "set xtics rotate by 90 right (";
+    plot << "set bmargin 13\nset xtics rotate by 90 right (";
     for (std::size_t i = 0; i < panel.x_names.size(); ++i) plot << (i ? ", " : "") << plain(panel.x_names[i]) << " " << i;
     plot << ") font ',7'\n";
   } else {
-    plot << "set xtics norotate autofreq font ',10'\n";
+    plot << "set bmargin\nset xtics norotate autofreq font ',10'\n";
   }
-  const bool legend =
-      std::any_of(panel.curves.begin(), panel.curves.end(), [](const Curve& c) { return !c.title.empty(); });
-  plot << (legend ? "set key " + panel.legend + " samplen 2.2 spacing 1.1 font ',10'\n" : "unset key\n");
+  const bool legend = std::any_of(panel.curves.begin(), panel.curves.end(), [](const Curve& c) { return !c.title.empty(); });
+  plot << (legend ? "set key default " + panel.legend + " samplen 2.2 spacing 1.1 font ',10'\n" : "unset key\n");
   plot << "plot ";
   bool first = true;
   for (const Curve& curve : panel.curves) {
@@ -104,15 +108,15 @@ bool changes(const Record& record, std::string_view name, double threshold) {
 
 std::string in_words(std::string name) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 10> words{{{"strain_", "logarithmic strain, "},
-                                                                                {"stress_", "stress, "},
-                                                                                {"F_", "deformation gradient, "},
-                                                                                {"accumulated_strain", "accumulated strain"},
-                                                                                {"equivalent_stress", "equivalent stress"},
-                                                                                {"plastic_strain", "plastic strain"},
-                                                                                {"mean_stress", "mean stress"},
-                                                                                {"failure_cause", "failure cause"},
-                                                                                {"shear_modulus", "shear modulus"},
-                                                                                {"sound_speed", "sound speed"}}};
+                                                                                 {"stress_", "stress, "},
+                                                                                 {"F_", "deformation gradient, "},
+                                                                                 {"accumulated_strain", "accumulated strain"},
+                                                                                 {"equivalent_stress", "equivalent stress"},
+                                                                                 {"plastic_strain", "plastic strain"},
+                                                                                 {"mean_stress", "mean stress"},
+                                                                                 {"failure_cause", "failure cause"},
+                                                                                 {"shear_modulus", "shear modulus"},
+                                                                                 {"sound_speed", "sound speed"}}};
   for (const auto& [start, word] : words)
     if (name.starts_with(start)) {
       name = std::string(word) + name.substr(start.size());
@@ -130,8 +134,14 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
     throw std::invalid_argument(fmt::format("{}: the ending of a figure is .png or .svg", path.string()));
   const int columns = std::max(1, figure.columns);
   const std::vector<Cell> cells = arrange(figure.panels, columns);
-  const int rows = cells.empty() ? 1 : cells.back().row + 1;
-  const int width = columns * figure.panel_width, height = rows * figure.panel_height + 40;
+  std::vector<double> row_heights(cells.empty() ? 1 : static_cast<std::size_t>(cells.back().row) + 1, 0.0);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    double& row = row_heights[static_cast<std::size_t>(cells[i].row)];
+    row = std::max(row, figure.panels[i].height * figure.panel_height);
+  }
+  constexpr int title_height = 34;
+  const int width = columns * figure.panel_width;
+  const double height = std::ceil(std::accumulate(row_heights.begin(), row_heights.end(), 0.0) + title_height);
   replace_file(path, [&](const std::filesystem::path& temporary) {
     {
       Gnuplot plot("gnuplot");
@@ -142,11 +152,11 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
       plot << "set encoding utf8\nset output " << quoted_text(temporary.string()) << "\n";
       plot << "set border 3 lw 1.2\nset tics nomirror out scale 0.6 font ',10'\nset grid lc rgb '#e4e4e4' lw 0.6\n";
       plot << fmt::format("set multiplot title {} font ',13'\n", plain(figure.title));
-      const double top = 1.0 - 34.0 / height;  // below the title
       for (std::size_t i = 0; i < cells.size(); ++i) {
-        const Cell& cell = cells[i];
-        plot << fmt::format("set size {},{}\nset origin {},{}\n", cell.width / static_cast<double>(columns), top / rows,
-                            cell.column / static_cast<double>(columns), top * (rows - 1 - cell.row) / rows);
+        const auto row = row_heights.begin() + cells[i].row;
+        const double above = std::accumulate(row_heights.begin(), row + 1, static_cast<double>(title_height));
+        plot << fmt::format("set size {},{}\nset origin {},{}\n", cells[i].width / static_cast<double>(columns), *row / height,
+                            cells[i].column / static_cast<double>(columns), 1.0 - above / height);
         draw_panel(plot, figure.panels[i]);
       }
       plot << "unset multiplot\nunset output\n";

@@ -17,7 +17,7 @@ struct Curve {
   std::string title;  // empty: not in the legend
   std::vector<double> x, y;
   Mark mark = Mark::line;
-  int colour = 0;     // index into the palette
+  int colour = 0;  // index into the palette
 };
 
 struct Panel {
@@ -25,8 +25,9 @@ struct Panel {
   std::vector<Curve> curves{};
   std::optional<std::array<double, 2>> x_range{}, y_range{};
   bool logarithmic_x = false, logarithmic_y = false;
-  bool wide = false;                // takes a row of its own
-  std::string legend = "top left";  // gnuplot's words for its place
+  bool wide = false;                   // takes a row of its own
+  double height = 1.0;                 // of its row, in units of Figure::panel_height
+  std::string legend = "top left";     // gnuplot's words for its place
   std::vector<std::string> x_names{};  // stand upright under x = 0, 1, 2, ...
 };
 

@@ -22,17 +22,26 @@ const Point<double>& PointUpdate::operator()(const State<double>& before, const 
   return point;
 }
 
-Trouble trouble_of(const Point<double>& point) { return static_cast<Trouble>(static_cast<int>(point.trouble)); }
+Trouble trouble_of(const Point<double>& point) {
+  return static_cast<Trouble>(static_cast<int>(point.trouble));
+}
 
 std::string_view describe(FailureCause cause) {
   switch (cause) {
-    case FailureCause::none: return "none";
-    case FailureCause::melting: return "melting";
-    case FailureCause::tepla_f: return "tepla_f";
-    case FailureCause::critical_damage: return "critical_damage";
-    case FailureCause::critical_porosity: return "critical_porosity";
-    case FailureCause::instability: return "instability";
-    case FailureCause::tensile_limit: return "tensile_limit";
+    case FailureCause::none:
+      return "none";
+    case FailureCause::melting:
+      return "melting";
+    case FailureCause::tepla_f:
+      return "tepla_f";
+    case FailureCause::critical_damage:
+      return "critical_damage";
+    case FailureCause::critical_porosity:
+      return "critical_porosity";
+    case FailureCause::instability:
+      return "instability";
+    case FailureCause::tensile_limit:
+      return "tensile_limit";
   }
   return "unknown";
 }

@@ -18,8 +18,12 @@ void note_interrupt(int signal) {
 
 }  // namespace
 
-void catch_interrupts() { std::signal(SIGINT, note_interrupt); }
-bool interrupt_requested() { return requested != 0; }
+void catch_interrupts() {
+  std::signal(SIGINT, note_interrupt);
+}
+bool interrupt_requested() {
+  return requested != 0;
+}
 
 ProgressLine::~ProgressLine() {
   if (shown_) fmt::print(stderr, "\r\033[K");

@@ -95,7 +95,7 @@ struct ScaledError {
 
 class RateForm {
  public:
-  RateForm(const Material& material, const State<double>& start, double duration) : material_(material), duration_(duration) {
+  RateForm(const Material& material, const State<double>& start) : material_(material) {
     mass_per_reference_volume_ = start.density * determinant(start.deformation_gradient);
     const double elastic_density = start.density * std::exp(start.plastic_volume_strain);
     const double start_pressure = -trace(start.stress) / 3.0;
@@ -136,7 +136,7 @@ class RateForm {
     end.plastic_strain_rate = plastic_rate(y, now, L);
     end.plastic_volume_strain = y[plastic_volume_strain];
     end.porosity = now.porosity;
-    end.damage = y[damage];
+    end.damage = std::min(y[damage], 1.0);
     end.shear_modulus = now.shear_modulus;
     end.flow_history = y[flow_history];
     if (material_.viscoelastic) rotate(frame(y), memory_at(y)).to_columns(end.history);
@@ -172,7 +172,6 @@ class RateForm {
 
  private:
   const Material& material_;
-  double duration_;
   double mass_per_reference_volume_;
   double pressure_offset_;
 
@@ -343,9 +342,10 @@ class RateForm {
     return lowest == infinity ? r : std::clamp(r, lowest, highest);
   }
 
-  /// The rate at which the stress follows the surface, with what drift there is taken back over a small part of the path.
+  /// The rate at which the stress follows the surface, with what drift there is taken back over a small strain.
   double consistent_rate(const Variables<double>& y, const Instant<double>& now, const Tensor<double>& L, double flat) const {
-    const double correction = overstress(y, flat) / (1e-3 * duration_);
+    constexpr double correction_strain = 1e-3;
+    const double correction = overstress(y, flat) * norm(symmetric_part(L)) / correction_strain;
     const auto residual = [&](double r) {
       const Variables<double> slope = rate(y, now, L, r);
       Variables<Dual<double>> moving;
@@ -479,14 +479,14 @@ State<double> integrate_rate_form(const Material& material, const State<double>&
                                   const RateFormOptions& options) {
   namespace odeint = boost::numeric::odeint;
   using Stepper = odeint::runge_kutta_dopri5<Variables<double>>;
-  RateForm form(material, start, t1 - t0);
+  RateForm form(material, start);
   Variables<double> y = form.variables(start);
   const auto rate = [&](const Variables<double>& at, Variables<double>& slope, double t) {
     slope = form.rate(at, velocity_gradient(t));
   };
   odeint::controlled_runge_kutta<Stepper, ScaledError> stepper(ScaledError{options.tolerance, form.scales()});
 
-  double t = t0, dt = 1e-3 * (t1 - t0);
+  double t = t0, dt = 0.1 * (t1 - t0);
   const double smallest = 1e-15 * (t1 - t0);
   for (long step = 0; t1 - t > smallest; ++step) {
     if (step == options.most_steps)

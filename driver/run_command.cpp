@@ -20,9 +20,9 @@ namespace {
 std::string ending_text(const Outcome& outcome) {
   switch (outcome.ending) {
     case Ending::completed:
-      return outcome.failure == FailureCause::none
-                 ? "completed"
-                 : fmt::format("completed; the point failed by {} at {:.6g} s", describe(outcome.failure), outcome.failure_time);
+      return outcome.failure == FailureCause::none ? "completed"
+                                                   : fmt::format("completed; the point failed by {} at {:.6g} s",
+                                                                 describe(outcome.failure), outcome.failure_time);
     case Ending::failure:
       return fmt::format("stopped: the point failed by {} at {:.6g} s", describe(outcome.failure), outcome.failure_time);
     case Ending::interrupted:

@@ -44,7 +44,8 @@ template <class Name>
 Panel curves_of(const Comparison& comparison, const driver::Results& results, std::string title,
                 const std::vector<std::size_t>& chosen, Name&& name) {
   Panel panel{.title = std::move(title), .x_label = "plastic strain", .y_label = "true stress (MPa)"};
-  panel.legend = "outside right";
+  panel.legend = "outside right top";
+  panel.x_range = {0.0, 0.28};
   panel.y_range = {0.0, 620.0};
   int colour = 0;
   for (const std::size_t t : chosen) {
@@ -62,7 +63,7 @@ Panel curves_of(const Comparison& comparison, const driver::Results& results, st
 Panel parity(const Comparison& comparison, const driver::Results& results) {
   Panel panel{.title = "every measured point", .x_label = "measured stress (MPa)", .y_label = "computed stress (MPa)"};
   panel.x_range = panel.y_range = {0.0, 650.0};
-  panel.legend = "bottom right";
+  panel.legend = "inside bottom right";
   for (std::size_t m = 0; m < results.size(); ++m) {
     Curve dots{comparison.models[m].name, {}, {}, mark_of(m), static_cast<int>(m)};
     for (const driver::TestResult& result : results[m])
@@ -76,20 +77,20 @@ Panel parity(const Comparison& comparison, const driver::Results& results) {
   return panel;
 }
 
-Panel errors(const Comparison& comparison, const driver::Results& results) {
-  Panel panel{.title = "error of each test, + where the model is too strong",
-              .x_label = "temperature (K)",
-              .y_label = "mean relative error (%)"};
-  panel.legend = "top left";
+Panel ratios(const Comparison& comparison, const driver::Results& results) {
+  Panel panel{.title = "every test", .x_label = "temperature (K)", .y_label = "computed / measured stress (mean)"};
+  panel.legend = "inside top left";
+  panel.logarithmic_y = true;
+  panel.y_range = {0.5, 15.0};
   for (std::size_t m = 0; m < results.size(); ++m) {
     Curve dots{comparison.models[m].name, {}, {}, mark_of(m), static_cast<int>(m)};
     for (std::size_t t = 0; t < comparison.tests.size(); ++t)
       if (!results[m][t].points.empty())
         dots.x.push_back(comparison.tests[t].temperature),
-            dots.y.push_back(100.0 * driver::errors_of(results[m][t].points).relative_mean);
+            dots.y.push_back(1.0 + driver::errors_of(results[m][t].points).relative_mean);
     panel.curves.push_back(std::move(dots));
   }
-  panel.curves.push_back({"", {50.0, 680.0}, {0.0, 0.0}, Mark::line, 6});
+  panel.curves.push_back({"", {50.0, 680.0}, {1.0, 1.0}, Mark::line, 6});
   panel.x_range = {50.0, 680.0};
   return panel;
 }
@@ -112,7 +113,7 @@ Picture flow_stress_6061() {
   const auto name = [](const Test& t) { return fmt::format("{:g} K, {:g} /s", t.temperature, t.strain_rate); };
   picture.figure.panels = {curves_of(comparison, results, "slow tests", representatives(comparison.tests, slow, hundred), name),
                            curves_of(comparison, results, "fast tests", representatives(comparison.tests, fast, hundred), name),
-                           parity(comparison, results), errors(comparison, results)};
+                           parity(comparison, results), ratios(comparison, results)};
   // Lots of the alloy differ: at room temperature the laboratories scatter by 18 % around their mean.
   constexpr double scatter = 18.0;
   const auto all = [](const Test&) { return true; };

@@ -89,13 +89,18 @@ Panel pressure_and_volume(const Models& models, const std::vector<Measured>& dat
   for (const Measured& set : data)
     panel.curves.push_back(curve(set.title, set.volume, set.pressure, 1.0, 1e-9, set.mark, set.colour));
   checks.push_back({"energy form: largest relative error of the shock pressure", "rho0 c0^2 x/(1 - s x)^2", worst, 1e-10});
+  checks.push_back({"temperature form less energy form behind a shock to V/V0 = 0.9",
+                    "the cold compression that it leaves out",
+                    100.0 * (models.shock(models.thermal, 0.9) / models.shock(models.energy, 0.9) - 1.0),
+                    {},
+                    "%"});
   checks.push_back({"one step of the update: relative error", "rho0 c0^2 x/(1 - s x)^2", step_error, 1e-10});
   return panel;
 }
 
 Panel shock_and_particle_velocity(const Models& models, const std::vector<Measured>& data) {
   Panel panel{.title = "the same as velocities", .x_label = "particle velocity (km/s)", .y_label = "shock velocity (km/s)"};
-  Curve energy{"energy form = 5.24 + 1.40 u_p", {}, {}, Mark::line, 0}, thermal{"temperature form", {}, {}, Mark::dashed, 1};
+  Curve energy{"energy form = 5.24 + 1.40 up", {}, {}, Mark::line, 0}, thermal{"temperature form", {}, {}, Mark::dashed, 1};
   for (const double up : evenly(50.0, 5500.0, 60)) {
     const auto add = [&](Curve& line, const auto& law) {
       if (const auto behind = equation_of_state::shock_to_particle_velocity(law, models.density(), room, up))

@@ -72,7 +72,7 @@ void lift_pen(Curve& curve) {
 Panel perfectly_plastic(std::vector<Check>& checks) {
   Panel panel = plane("perfectly plastic: q = Y = 1 GPa", half_width);
   Curve trials{"trial", {}, {}, Mark::points, 1}, returned{"returned", {}, {}, Mark::points, 2}, way{"", {}, {}, Mark::line, 5},
-      start{"start", {}, {}, Mark::points, 7};
+      start{"start", {}, {}, Mark::squares, 6};
   const Material material = metal(0.0);
   driver::PointUpdate update(material);
   double off_circle = 0.0, off_direction = 0.0;
@@ -197,7 +197,7 @@ Picture radial_return() {
                     .panels = {},
                     .columns = 2,
                     .panel_width = 600,
-                    .panel_height = 605};
+                    .panel_height = 622};
   for (const auto panel : {perfectly_plastic, hardening, around_a_square, turning})
     picture.figure.panels.push_back(panel(picture.checks));
   return picture;

@@ -1,6 +1,7 @@
 #include "runs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "models/input/material_reader.hpp"
 
@@ -57,18 +58,22 @@ LoadingPath constant_volume(double strain_rate, double temperature, double plast
   return path_to(plastic_strain, temperature, segment, "constant volume");
 }
 
-LoadingPath constant_triaxiality(double triaxiality, double strain_rate, double temperature, double plastic_strain) {
+LoadingPath constant_triaxiality(double triaxiality, double lode_angle, double strain_rate, double temperature,
+                                 double plastic_strain) {
   PathSegment segment;
-  const S direction{2.0 / 3.0, -1.0 / 3.0, -1.0 / 3.0, 0, 0, 0};  // deviator over equivalent stress
+  const double angle = lode_angle / degrees, third = 120.0 / degrees;
+  const S direction{
+      2.0 / 3.0 * std::cos(angle), 2.0 / 3.0 * std::cos(angle - third), 2.0 / 3.0 * std::cos(angle + third), 0, 0, 0};
+  // The stress is q (direction + triaxiality I) when it has no part along two tensors at right angles to that.
+  const S across{direction.yy - direction.zz, direction.zz - direction.xx, direction.xx - direction.yy, 0, 0, 0};
   const S balance = add_to_diagonal(triaxiality * direction, -double_dot(direction, direction) / 3.0);
   const auto along = [](double S::*component) {
     S unit;
     unit.*component = 1.0;
     return to_tensor(unit);
   };
-  segment.free = {{along(&S::xx), S{0, 1, -1, 0, 0, 0}, {}, 0.0},
-                  {along(&S::yy), balance, {}, 0.0},
-                  {along(&S::zz), {}, direction, strain_rate}};
+  segment.free = {
+      {along(&S::xx), across, {}, 0.0}, {along(&S::yy), balance, {}, 0.0}, {along(&S::zz), {}, direction, strain_rate}};
   return path_to(plastic_strain, temperature, segment, "constant triaxiality");
 }
 

@@ -23,8 +23,10 @@ driver::LoadingPath uniaxial_stress(double strain_rate, double temperature, doub
 /// Extension along x at a strain rate (1/s) with the volume kept, until a plastic strain.
 driver::LoadingPath constant_volume(double strain_rate, double temperature, double plastic_strain);
 
-/// Mean stress over equivalent stress kept, stress axisymmetric about x, until a plastic strain.
-driver::LoadingPath constant_triaxiality(double triaxiality, double strain_rate, double temperature, double plastic_strain);
+/// Mean stress over equivalent stress kept, and the Lode angle (degrees: 0 in axial tension, 30 in shear), until a plastic
+/// strain; the rate is the one conjugate to the equivalent stress.
+driver::LoadingPath constant_triaxiality(double triaxiality, double lode_angle, double strain_rate, double temperature,
+                                         double plastic_strain);
 
 struct Run {
   driver::Record record;

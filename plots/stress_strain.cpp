@@ -62,7 +62,7 @@ Run compress(const Material& material, double rate, double temperature, double s
 
 driver::Panel family(const Metal& metal, double& worst) {
   driver::Panel panel{.title = std::string(metal.title), .x_label = "plastic strain", .y_label = "flow stress (MPa)"};
-  panel.y_range = {0.0, 620.0};
+  panel.x_range = {0.0, largest_strain}, panel.y_range = {0.0, 800.0};
   const auto add = [&](std::string title, double rate, double temperature, Mark mark, int colour) {
     const Run run = compress(metal.material, rate, temperature, largest_strain);
     worst = std::max(worst, inconsistency(metal.material, run));
@@ -81,7 +81,7 @@ driver::Panel against_rate(const std::vector<Metal>& metals) {
   driver::Panel panel{
       .title = "plastic strain 0.15, isothermal at 298 K", .x_label = "strain rate (1/s)", .y_label = "flow stress (MPa)"};
   panel.logarithmic_x = true;
-  panel.y_range = {0.0, 620.0};
+  panel.y_range = {0.0, 1000.0};
   for (std::size_t m = 0; m < metals.size(); ++m) {
     driver::Curve line{std::string(metals[m].title), {}, {}, Mark::line, static_cast<int>(m)};
     for (double exponent = -3.0; exponent <= 8.0; exponent += 0.5) {

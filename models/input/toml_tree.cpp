@@ -67,51 +67,88 @@ struct Trap {
 /// What toml++ 3.3 does not survive, if there is any of it:
 /// - a key of very many dotted parts: each part is a table in a table, and taking the chain apart again exhausts the stack;
 /// - a table header that does not begin with a key, or a brace where an element of a list should be: it only asserts that
-///   there is none, which is undefined behaviour in release builds.
-std::optional<Trap> first_trap(std::string_view text) {
-  const auto is_one_of = [](char c, std::string_view set) { return set.find(c) != std::string_view::npos; };
-  const auto is_key_character = [&](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || is_one_of(c, "-_\"']");
-  };
-  int dots = 0;
-  std::string open;  // brackets around this place within a value
-  bool line_begins = true;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"' || c == '\'') {
-      const bool triple = text.substr(i, 3) == std::string(3, c);
-      const std::string_view end = text.substr(i, triple ? 3 : 1);
-      for (i += end.size(); i < text.size() && text.substr(i, end.size()) != end; ++i) {
-        if (c == '"' && text[i] == '\\') ++i;
-        if (!triple && i < text.size() && text[i] == '\n') break;
-      }
-      i += end.size() - 1;
-      for (int extra = 0; triple && extra < 2 && text.substr(i + 1, 1) == end.substr(0, 1); ++extra) ++i;  // part of the text
-      line_begins = false;
-      continue;
+///   there is none, which is undefined behaviour in release builds;
+/// - letters and blanks beyond ASCII outside texts: its table of blanks has holes that it takes for unreachable.
+class TrapFinder {
+ public:
+  explicit TrapFinder(std::string_view text) : text_(text) {}
+
+  std::optional<Trap> find() {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // byte order mark
+    for (; at_ < text_.size() && !trap_; ++at_) {
+      const char c = text_[at_];
+      if (c == '"' || c == '\'')
+        skip_text(c);
+      else if (c == '#')
+        skip_comment();
+      else if (c == '[' && before_ == '\n' && open_.empty())
+        skip_header_bracket();
+      else
+        look_at(c);
     }
-    if (c == '#') {
-      while (i + 1 < text.size() && text[i + 1] != '\n') ++i;
-    } else if (c == '.') {
-      if (++dots > deepest_key) return Trap{i, "a key of more than 32 dotted parts"};
-    } else if (is_one_of(c, "=,[]{}\n")) {
-      dots = 0;
-    }
-    if (c == '[' && line_begins && open.empty()) {
-      i = text.find_first_not_of(" \t", i + (text.substr(i, 2) == "[[" ? 2 : 1));
-      if (i == std::string_view::npos) return std::nullopt;
-      if (!is_key_character(text[i])) return Trap{i, "in this table header: the name of the table must follow the bracket"};
-      --i;
-    } else if (c == '[' || c == '{') {
-      open += c;
-    } else if ((c == ']' || c == '}') && !open.empty()) {
-      if (c == '}' && open.back() == '[') return Trap{i, "in this list: expected closing ']', saw '}'"};
-      open.pop_back();
-    }
-    line_begins = c == '\n' || (line_begins && is_one_of(c, " \t\r"));
+    return trap_;
   }
-  return std::nullopt;
-}
+
+ private:
+  static bool is_one_of(char c, std::string_view set) { return set.find(c) != std::string_view::npos; }
+  void report(std::string_view what) { trap_ = Trap{at_, what}; }
+
+  void skip_text(char quote) {
+    const bool may_begin_here = is_one_of(before_, "\n=,[{") || (before_ == '.' && !in_value_);
+    if (!may_begin_here) return report("a text cannot begin here; is an equals sign or a comma missing before it?");
+    const bool triple = text_.substr(at_, 3) == std::string(3, quote);
+    const std::string_view end = text_.substr(at_, triple ? 3 : 1);
+    for (at_ += end.size(); at_ < text_.size() && text_.substr(at_, end.size()) != end; ++at_) {
+      if (quote == '"' && text_[at_] == '\\') ++at_;
+      if (!triple && at_ < text_.size() && text_[at_] == '\n') break;
+    }
+    at_ += end.size() - 1;
+    // One or two quotes before the closing three are part of the text.
+    for (int extra = 0; triple && extra < 2 && at_ + 1 < text_.size() && text_[at_ + 1] == quote; ++extra) ++at_;
+    before_ = quote;
+  }
+
+  void skip_comment() {
+    while (at_ + 1 < text_.size() && text_[at_ + 1] != '\n') ++at_;
+  }
+
+  void skip_header_bracket() {
+    if (text_.substr(at_, 2) == "[[") ++at_;
+    while (at_ + 1 < text_.size() && is_one_of(text_[at_ + 1], " \t")) ++at_;
+    before_ = '[';
+    if (at_ + 1 == text_.size()) return;
+    const char c = text_[at_ + 1];
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || is_one_of(c, "-_\"']")) return;
+    ++at_;
+    report("in this table header: the name of the table must follow the bracket");
+  }
+
+  void look_at(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80) return report("letters and blanks beyond ASCII can stand in texts and comments only");
+    if ((byte < 0x20 && !is_one_of(c, "\t\r\n")) || byte == 0x7F) return report("a control character outside a text");
+    if (c == '.' && ++dots_ > deepest_key) return report("a key of more than 32 dotted parts");
+    if (is_one_of(c, "=,[]{}\n")) dots_ = 0;
+
+    if (c == '=') in_value_ = true;
+    if ((c == '\n' && open_.empty()) || (c == ',' && open_.ends_with('{')) || c == '{') in_value_ = false;
+    if (c == '[' || c == '{') open_ += c;
+    if ((c == ']' || c == '}') && !open_.empty()) {
+      if (c == '}' && open_.back() == '[') return report("in this list: expected closing ']', saw '}'");
+      open_.pop_back();
+      in_value_ = true;
+    }
+    if (!is_one_of(c, " \t\r")) before_ = c;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::optional<Trap> trap_;
+  char before_ = '\n';     // the last character that is no blank
+  std::string open_;       // brackets around this place within a value
+  bool in_value_ = false;  // behind an equals sign
+  int dots_ = 0;           // in this key
+};
 
 /// The message of toml++ in words that fit ours.
 std::string reworded(std::string_view description) {
@@ -203,7 +240,7 @@ TomlNode parse_toml(std::string_view text, const std::string& file_name) {
     fail(file_name, place_of(text, *bad),
          std::string("byte 0x") + digits[byte / 16] + digits[byte % 16] + " is not UTF-8 text; save the file as UTF-8");
   }
-  if (const auto trap = first_trap(text))
+  if (const auto trap = TrapFinder(text).find())
     fail(file_name, place_of(text, trap->offset), "not valid TOML: " + std::string(trap->what));
   try {
     return converted(toml::parse(text));

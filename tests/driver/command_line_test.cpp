@@ -62,13 +62,15 @@ std::string path_file(const std::string& segments, const std::string& top = "") 
 }
 const std::string pull = "[[segment]]\nmode = \"uniaxial_stress\"\nstrain_rate = 1000\nstrain = 0.02\n";
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST(List, NamesEveryFolderAndLaw) {
   const Answer a = call({"list"});
   EXPECT_EQ(a.code, done);
-  for (const char* name : {"flow_stress", "johnson_cook", "mechanical_threshold_stress", "gurson_tvergaard_needleman", "tepla_f",
-                           "varshni_chen_gray", "jones_wilkins_lee", "drucker"})
+  for (const char* name : {"flow_stress", "johnson_cook", "mechanical_threshold_stress", "gurson_tvergaard_needleman",
+                           "tepla_f", "varshni_chen_gray", "jones_wilkins_lee", "drucker"})
     EXPECT_TRUE(contains(a.out, name)) << name;
 }
 
@@ -159,10 +161,13 @@ TEST(Run, RefusesPathsThatMakeNoSense) {
   EXPECT_TRUE(contains(error(""), "[[segment]]"));
   EXPECT_TRUE(contains(error("[[segment]]\nmode = \"hold\"\n"), "no end"));
   EXPECT_TRUE(contains(error("[[segment]]\nduration = 1\n"), "nothing drives"));
-  EXPECT_TRUE(contains(error("[[segment]]\nmode = \"uniaxial_strain\"\nstrain_rate = 1\nuntil = { stres = 0 }\n"), "did you mean"));
-  EXPECT_TRUE(contains(error("[[segment]]\nstrain_rate = { xx = 1 }\nstress = { xx = 0 }\nduration = 1\n"), "prescribed as well"));
+  EXPECT_TRUE(
+      contains(error("[[segment]]\nmode = \"uniaxial_strain\"\nstrain_rate = 1\nuntil = { stres = 0 }\n"), "did you mean"));
+  EXPECT_TRUE(
+      contains(error("[[segment]]\nstrain_rate = { xx = 1 }\nstress = { xx = 0 }\nduration = 1\n"), "prescribed as well"));
   EXPECT_TRUE(contains(error("[[segment]]\ndeformation_gradient = { xx = -1 }\nduration = 1\n"), "determinant"));
-  EXPECT_TRUE(contains(error("[[segment]]\nmode = \"hydrostatic\"\npressure = \"1 GPa\"\nuntil = { pressure = 1 }\n"), "duration"));
+  EXPECT_TRUE(
+      contains(error("[[segment]]\nmode = \"hydrostatic\"\npressure = \"1 GPa\"\nuntil = { pressure = 1 }\n"), "duration"));
   EXPECT_TRUE(contains(error(pull + "temperature_rate = 5\n"), "prescribed"));
 }
 
@@ -175,8 +180,8 @@ TEST(Run, SaysWhatIsMissing) {
 
 TEST(Run, FailsWithTheFactsAndKeepsTheHistory) {
   const fs::path directory = scratch();
-  const fs::path file = write_text(directory / "pull.toml",
-                                   path_file("[[segment]]\nmode = \"uniaxial_stress\"\nstress = \"5 GPa\"\nduration = \"1 ms\"\n"));
+  const fs::path file = write_text(
+      directory / "pull.toml", path_file("[[segment]]\nmode = \"uniaxial_stress\"\nstress = \"5 GPa\"\nduration = \"1 ms\"\n"));
   const Answer a = call({"run", file, "-o", directory / "a.csv"});
   EXPECT_EQ(a.code, failed_while_running);
   EXPECT_TRUE(contains(a.err, "segment 1")) << a.err;
@@ -208,8 +213,9 @@ TEST(Run, ComparesWithTheRateForm) {
 TEST(Run, KeepsTheHistoryWhenInterrupted) {
   const fs::path directory = scratch();
   const fs::path file = write_text(
-      directory / "long.toml", path_file("[[segment]]\nmode = \"simple_shear\"\nshear_rate = 1\nduration = 1e6\n",
-                                         "strain_increment = 1e-6\n") + "[output]\nrows = 100\n");
+      directory / "long.toml",
+      path_file("[[segment]]\nmode = \"simple_shear\"\nshear_rate = 1\nduration = 1e6\n", "strain_increment = 1e-6\n") +
+          "[output]\nrows = 100\n");
   const fs::path history = directory / "a.csv";
   const pid_t child = fork();
   ASSERT_GE(child, 0);
@@ -231,8 +237,9 @@ TEST(Run, KeepsTheHistoryWhenInterrupted) {
 
 TEST(Sweep, RunsTheFullProductAndWritesATable) {
   const fs::path directory = scratch();
-  const fs::path file = write_text(directory / "sweep.toml", path_file(pull) + "[sweep]\n\"initial.temperature\" = [200, 298, 500]\n"
-                                                                               "\"material.flow_stress.A\" = [\"700 MPa\", 8e8]\n");
+  const fs::path file = write_text(directory / "sweep.toml", path_file(pull) +
+                                                                 "[sweep]\n\"initial.temperature\" = [200, 298, 500]\n"
+                                                                 "\"material.flow_stress.A\" = [\"700 MPa\", 8e8]\n");
   const Answer a = call({"run", file, "-o", directory / "out", "--plot", directory / "sweep.png"});
   EXPECT_EQ(a.code, done) << a.err;
   const CsvFile table = CsvFile::load(directory / "out/sweep.csv");
@@ -246,7 +253,8 @@ TEST(Sweep, RunsTheFullProductAndWritesATable) {
 
 TEST(Sweep, FindsAMistakeInTheLastMemberBeforeTheFirstRuns) {
   const fs::path directory = scratch();
-  const fs::path file = write_text(directory / "sweep.toml", path_file(pull) + "[sweep]\n\"initial.temperature\" = [200, -5]\n");
+  const fs::path file =
+      write_text(directory / "sweep.toml", path_file(pull) + "[sweep]\n\"initial.temperature\" = [200, -5]\n");
   const Answer a = call({"run", file});
   EXPECT_EQ(a.code, bad_input);
   EXPECT_EQ(a.out, "");
@@ -294,7 +302,7 @@ std::vector<fs::path> point_cases() {
   return cases;
 }
 INSTANTIATE_TEST_SUITE_P(Cases, EveryCase, testing::ValuesIn(point_cases()),
-                         [](const auto& info) { return info.param.stem().string(); });
+                         [](const auto& file) { return file.param.stem().string(); });
 
 }  // namespace
 }  // namespace brisance::driver

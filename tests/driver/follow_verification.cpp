@@ -66,26 +66,26 @@ PathSegment along(double Tensor<double>::*component, double rate, double duratio
   return s;
 }
 
-struct Run {
+struct Journey {
   Record record;
   Outcome outcome;
   double last(std::string_view column) const { return record.find(column)->values.back(); }
 };
-Run run(const Material& material, const LoadingPath& path) {
+Journey run(const Material& material, const LoadingPath& path) {
   History history(material, path.output);
   const Outcome outcome = follow(material, path, history);
   return {history.record(), outcome};
 }
 
 TEST(UniaxialStress, RisesWithYoungsModulusAndContractsByPoissonsRatio) {
-  const Run r = run(elastic(), path_of({uniaxial_stress(100, 1e-4)}));
+  const Journey r = run(elastic(), path_of({uniaxial_stress(100, 1e-4)}));
   EXPECT_NEAR(r.last("stress_xx") / (E * 0.01), 1.0, stress_tolerance);
   EXPECT_NEAR(r.last("strain_yy") / (-nu * 0.01), 1.0, stress_tolerance);
   EXPECT_NEAR(r.last("strain_xx"), 0.01, 1e-14);
 }
 
 TEST(UniaxialStress, KeepsTheFreeSidesFreeOfStressAtEveryStep) {
-  const Run r = run(plastic(H), path_of({uniaxial_stress(-100, 1e-3)}));
+  const Journey r = run(plastic(H), path_of({uniaxial_stress(-100, 1e-3)}));
   for (std::size_t i = 0; i < r.record.rows(); ++i) {
     EXPECT_LE(std::abs(r.record.find("stress_yy")->values[i]), control_tolerance * Y0 * 2);
     EXPECT_LE(std::abs(r.record.find("stress_zz")->values[i]), control_tolerance * Y0 * 2);
@@ -94,7 +94,7 @@ TEST(UniaxialStress, KeepsTheFreeSidesFreeOfStressAtEveryStep) {
 
 TEST(UniaxialStress, HardensWithTheTangentEHOverEPlusH) {
   const double strain = 0.05;
-  const Run r = run(plastic(H), path_of({uniaxial_stress(100, strain / 100)}));
+  const Journey r = run(plastic(H), path_of({uniaxial_stress(100, strain / 100)}));
   const double expected = Y0 + E * H / (E + H) * (strain - Y0 / E);
   EXPECT_NEAR(r.last("stress_xx") / expected, 1.0, stress_tolerance);
   EXPECT_NEAR(r.last("plastic_strain") / ((expected - Y0) / H), 1.0, stress_tolerance * (Y0 + expected) / (expected - Y0));
@@ -107,7 +107,7 @@ TEST(UniaxialStress, CarriesASuperposedPressureWithoutChangingTheDifferenceOfStr
   squeeze.duration = 1e-5;
   PathSegment load = uniaxial_stress(-100, 5e-4);
   load.free = {held(&SymmetricTensor<double>::yy, -p), held(&SymmetricTensor<double>::zz, -p)};
-  const Run r = run(plastic(), path_of({squeeze, load}));
+  const Journey r = run(plastic(), path_of({squeeze, load}));
   EXPECT_NEAR(r.last("stress_yy") / -p, 1.0, stress_tolerance);
   EXPECT_NEAR((r.last("stress_yy") - r.last("stress_xx")) / Y0, 1.0, stress_tolerance);
 }
@@ -118,7 +118,7 @@ TEST(UniaxialStrain, YieldsAtTheHugoniotElasticLimitAndThenRisesWithTheBulkModul
   EXPECT_NEAR(run(plastic(), path_of({to_limit})).last("stress_xx") / (-0.999 * elastic_limit), 1.0, stress_tolerance);
 
   const double strain = 0.03;
-  const Run r = run(plastic(), path_of({along(&Tensor<double>::xx, -1000, strain / 1000)}));
+  const Journey r = run(plastic(), path_of({along(&Tensor<double>::xx, -1000, strain / 1000)}));
   EXPECT_NEAR(r.last("stress_xx") / -(K * strain + 2 * Y0 / 3), 1.0, stress_tolerance);
   EXPECT_NEAR(r.last("equivalent_stress") / Y0, 1.0, stress_tolerance);
 }
@@ -130,7 +130,7 @@ TEST(SimpleShear, OscillatesUnderTheIncrementalRotationAsUnderJaumannsRate) {
   Material m = elastic();
   LoadingPath path = path_of({along(&Tensor<double>::xy, 1000, 2e-3)});
   path.strain_increment = 1e-3;
-  const Run r = run(m, path);
+  const Journey r = run(m, path);
   EXPECT_NEAR(r.last("stress_xy") / G, std::sin(2.0), shear_tolerance);
   EXPECT_NEAR(r.last("stress_xx") / G, 1 - std::cos(2.0), shear_tolerance);
   EXPECT_NEAR(r.last("stress_yy") / G, std::cos(2.0) - 1, shear_tolerance);
@@ -141,7 +141,7 @@ TEST(SimpleShear, RisesWithoutEndUnderGreenAndNaghdisRate) {
   m.objective_rate = ObjectiveRate::green_naghdi;
   LoadingPath path = path_of({along(&Tensor<double>::xy, 1000, 2e-3)});
   path.strain_increment = 1e-3;
-  const Run r = run(m, path);
+  const Journey r = run(m, path);
   const double b = std::atan(1.0);
   const double sigma_11 = 4 * (std::cos(2 * b) * std::log(std::cos(b)) + b * std::sin(2 * b) - std::sin(b) * std::sin(b));
   // The limit of 2 cos 2b (2b - 2 tan 2b ln cos b - tan b), written without the infinite tangent at b = 45 degrees.
@@ -154,7 +154,7 @@ TEST(Hydrostatic, ReachesThePrescribedPressureWithoutShape) {
   PathSegment squeeze;
   squeeze.free = {{Tensor<double>::identity(), (-1.0 / 3.0) * SymmetricTensor<double>::identity(), {}, 5e9}};
   squeeze.duration = 1e-3;
-  const Run r = run(plastic(), path_of({squeeze}));
+  const Journey r = run(plastic(), path_of({squeeze}));
   EXPECT_NEAR(r.last("pressure") / 5e9, 1.0, stress_tolerance);
   EXPECT_NEAR(std::log(r.last("density") / 7800) / (5e9 / K), 1.0, stress_tolerance);
   EXPECT_LT(r.last("equivalent_stress"), 1e-9 * 5e9);
@@ -175,7 +175,7 @@ TEST(ConstantTriaxiality, KeepsTriaxialityLodeAngleAndTheRateConjugateToTheEquiv
       LoadingPath path = read_path("mode = \"constant_triaxiality\"\nstrain_rate = 100\nstrain = 0.05\ntriaxiality = " +
                                    std::to_string(triaxiality) + "\nlode_angle = " + std::to_string(lode) + "\n");
       path.output.every = 1;
-      const Run r = run(plastic(H), path);
+      const Journey r = run(plastic(H), path);
       constexpr double printed_digits = 1e-6;  // std::to_string above
       for (std::size_t i = 1; i < r.record.rows(); ++i)
         ASSERT_NEAR(r.record.find("triaxiality")->values[i], triaxiality, printed_digits) << lode;
@@ -188,7 +188,7 @@ TEST(ConstantTriaxiality, KeepsTriaxialityLodeAngleAndTheRateConjugateToTheEquiv
 
 TEST(BiaxialStress, KeepsTheRatioOfTheStresses) {
   LoadingPath path = read_path("mode = \"biaxial_stress\"\nstress_ratio = 0.5\nstrain_rate = 100\nstrain = 0.05\n");
-  const Run r = run(plastic(H), path);
+  const Journey r = run(plastic(H), path);
   EXPECT_NEAR(r.last("stress_yy") / r.last("stress_xx"), 0.5, 1e-7);
   EXPECT_LT(std::abs(r.last("stress_zz")), control_tolerance * 4 * Y0);
   // With this ratio associated flow leaves the y direction at rest.
@@ -202,7 +202,7 @@ TEST(MixedControl, HoldsATensionWhileItShears) {
   PathSegment shear = along(&Tensor<double>::xy, 1000, 5e-5);
   shear.free = {held(&SymmetricTensor<double>::xx, tension), held(&SymmetricTensor<double>::yy, 0.0),
                 held(&SymmetricTensor<double>::zz, 0.0)};
-  const Run r = run(plastic(), path_of({pull, shear}));
+  const Journey r = run(plastic(), path_of({pull, shear}));
   EXPECT_NEAR(r.last("stress_xx") / tension, 1.0, stress_tolerance);
   EXPECT_NEAR(r.last("stress_xy") / std::sqrt((Y0 * Y0 - tension * tension) / 3), 1.0, 1e-6);
 }
@@ -213,12 +213,13 @@ TEST(MixedControl, PrescribesAShearStressWithoutDoublingIt) {
   twist.free.front().stress_weight.xy = 0.5;  // a shear component stands twice in a double product
   twist.free.front().target = 100e6;
   twist.duration = 1e-5;
-  const Run r = run(elastic(), path_of({twist}));
+  const Journey r = run(elastic(), path_of({twist}));
   EXPECT_NEAR(r.last("stress_xy") / 100e6, 1.0, stress_tolerance);
 }
 
 TEST(Cycle, ElasticStrainReturnsStressAndEnergyToNothing) {
-  const Run r = run(elastic(), path_of({uniaxial_stress(100, 2e-5), uniaxial_stress(-100, 4e-5), uniaxial_stress(100, 2e-5)}));
+  const Journey r =
+      run(elastic(), path_of({uniaxial_stress(100, 2e-5), uniaxial_stress(-100, 4e-5), uniaxial_stress(100, 2e-5)}));
   EXPECT_LT(std::abs(r.last("stress_xx")), 1e-6 * E * 2e-3);
   const double largest_energy = 0.5 * E * 2e-3 * 2e-3 / 7800;  // J/kg
   // Work is summed by the trapezoidal rule with densities at both ends, exact to second order in the strain.
@@ -232,7 +233,7 @@ TEST(Until, EndsWhereTheColumnHasItsValue) {
   PathSegment unload = uniaxial_stress(-100, 1.0);
   unload.duration.reset();
   unload.until = Until{"stress_xx", 0.0};
-  const Run r = run(plastic(H), path_of({load, unload}));
+  const Journey r = run(plastic(H), path_of({load, unload}));
   EXPECT_NEAR(r.last("plastic_strain") / 0.0123, 1.0, 1e-9);
   EXPECT_LT(std::abs(r.last("stress_xx")), 1e-7 * Y0);
   EXPECT_NEAR(r.last("strain_xx") / 0.0123, 1.0, 1e-6);  // what remains is plastic
@@ -241,7 +242,7 @@ TEST(Until, EndsWhereTheColumnHasItsValue) {
 TEST(Steps, AreHalvedWhereTheUpdateIsInTrouble) {
   LoadingPath path = path_of({along(&Tensor<double>::xy, 1.0, 40.0)});
   path.strain_increment = 5.0;  // far more than a step of the update may take
-  const Run r = run(plastic(), path);
+  const Journey r = run(plastic(), path);
   EXPECT_EQ(r.outcome.ending, Ending::completed);
   EXPECT_NEAR(r.last("F_xy"), 40.0, 1e-10);
   EXPECT_NEAR(r.last("equivalent_stress") / Y0, 1.0, 1e-9);
@@ -258,7 +259,7 @@ TEST(Steps, EndWithTheFactsWhereAStressCannotBeCarried) {
     FAIL() << "a perfectly plastic bar carried twice its strength";
   } catch (const RunError& error) {
     const std::string what = error.what();
-    EXPECT_NE(what.find("cannot be held"), std::string::npos) << what;
+    EXPECT_TRUE(what.find("cannot be held") != std::string::npos || what.find("gives way") != std::string::npos) << what;
     EXPECT_NE(what.find("plastic strain"), std::string::npos) << what;
   }
   EXPECT_NEAR(history.record().find("stress_xx")->values.back() / Y0, 1.0, 0.02);  // what was reached is kept
@@ -272,11 +273,11 @@ TEST(Heat, IsTakenAwayFromAnIsothermalPointAndKeptByAnAdiabaticOne) {
   m.heating = Heating{chi, true, false};
   m.specific_heat = specific_heat::Constant{450};
   LoadingPath path = path_of({uniaxial_stress(100, 2e-3)});
-  const Run adiabatic = run(m, path);
+  const Journey adiabatic = run(m, path);
   const double rise = 0.9 * Y0 * adiabatic.last("plastic_strain") / (7800 * 450);
   EXPECT_NEAR((adiabatic.last("temperature") - 300) / rise, 1.0, 3e-3);  // the density falls by 0.2 % in tension
   path.heat = Heat::isothermal;
-  const Run isothermal = run(m, path);
+  const Journey isothermal = run(m, path);
   EXPECT_EQ(isothermal.last("temperature"), 300.0);
   EXPECT_NEAR((adiabatic.last("energy") - isothermal.last("energy")) / (450 * rise), 1.0, 3e-3);
 }
@@ -294,9 +295,9 @@ TEST(DeformationGradient, IsReachedExactlyAndReturnsToIdentity) {
   there.deformation_gradient = Tensor<double>{1.1, 0.3, 0.0, 0.05, 0.95, -0.1, 0.0, 0.2, 0.9};
   there.duration = back.duration = 1e-3;
   back.deformation_gradient = Tensor<double>::identity();
-  const Run one = run(elastic(), path_of({there}));
+  const Journey one = run(elastic(), path_of({there}));
   EXPECT_LT(norm(one.outcome.state.deformation_gradient - *there.deformation_gradient), 1e-11);
-  const Run both = run(elastic(), path_of({there, back}));
+  const Journey both = run(elastic(), path_of({there, back}));
   EXPECT_LT(norm(both.outcome.state.deformation_gradient - Tensor<double>::identity()), 1e-11);
 }
 
