@@ -78,8 +78,7 @@ class Traveller {
   };
 
   void follow_segment(const PathSegment& segment) {
-    if (segment.temperature) state_.temperature = *segment.temperature;
-    state_.temperature += segment.temperature_jump;
+    set_temperature(segment.temperature.value_or(state_.temperature) + segment.temperature_jump);
     start_ = {time_, state_.deformation_gradient, {}};
     for (const FreeDirection& f : segment.free) start_.targets.push_back(double_dot(f.stress_weight, state_.stress));
     require_reachable_targets(segment);
@@ -100,7 +99,7 @@ class Traveller {
       // A last step as long as the others, instead of a sliver.
       const double left = end - time_;
       double tried = std::min(dt, left <= 1.0000001 * dt ? left : (left < 2.0 * dt ? 0.5 * left : dt));
-      const Step taken = step_with_halving(segment, tried);
+      const Step taken = step_with_halving(segment, tried, left);
       tried = taken.dt;
       Step last = taken;
       if (watched) reached = shorten_to(segment, *watched, last);
@@ -117,6 +116,20 @@ class Traveller {
       if (stop || interrupted) return;
       dt = next_dt(segment, tried, norm(taken.result.velocity_gradient) * tried);
     }
+  }
+
+  /// A jump of the temperature at constant stress: the point expands or shrinks freely and takes up the heat.
+  void set_temperature(double temperature) {
+    if (temperature == state_.temperature) return;
+    const EquationOfState& law = material_.equation_of_state;
+    const double pressure = -trace(state_.stress) / 3.0;
+    const double before = equation_of_state::density_at(law, pressure, state_.temperature);
+    const double after = equation_of_state::density_at(law, pressure, temperature);
+    state_.density *= after / before;
+    state_.deformation_gradient = std::cbrt(before / after) * state_.deformation_gradient;
+    state_.energy +=
+        equation_of_state::energy(law, after, temperature) - equation_of_state::energy(law, before, state_.temperature);
+    state_.temperature = temperature;
   }
 
   double first_dt(const PathSegment& segment) const {
@@ -185,9 +198,9 @@ class Traveller {
     return controlled_step(update_, before, control(segment, dt), dt, time_ + dt, warm);
   }
 
-  Step step_with_halving(const PathSegment& segment, double dt) {
+  Step step_with_halving(const PathSegment& segment, double dt, double left) {
     constexpr double slack = 1.5;  // free components may take a step a little over the limit
-    const double asked = dt, smallest = std::min(dt, smallest_step * first_dt(segment));
+    const double asked = dt, smallest = std::min(smallest_step * first_dt(segment), left);
     ControlledStep result;
     for (; dt >= smallest; dt *= 0.5) {
       result = attempt(segment, dt, warm_);

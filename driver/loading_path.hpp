@@ -40,7 +40,7 @@ struct PathSegment {
   std::optional<Tensor<double>> deformation_gradient;  // F at the end; overrides velocity_gradient
   std::optional<double> duration;                      // s
   std::optional<Until> until;
-  std::optional<double> temperature;  // K, set at the start
+  std::optional<double> temperature;  // K, set at the start, at constant stress
   double temperature_jump = 0.0;      // K, added at the start
   double temperature_rate = 0.0;      // K/s, with Heat::prescribed
 };

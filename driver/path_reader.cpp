@@ -8,8 +8,8 @@
 #include <numbers>
 #include <span>
 
+#include "models/equation_of_state/thermodynamics.hpp"
 #include "models/input/table_reader.hpp"
-#include "models/visit.hpp"
 
 namespace brisance {
 
@@ -348,13 +348,14 @@ void require_column(TableReader& in, std::string_view key, const std::string& na
   in.problem(key, in_quotes(name) + " is no column of the history" + did_you_mean(name, names));
 }
 
+/// Where the temperature follows from the energy it cannot be ruled from outside.
 void check_heat(TableReader& top, const Material& material, const LoadingPath& path) {
-  if (path.heat == Heat::adiabatic) return;
-  visit_law(material.equation_of_state, [&](const auto& law) {
-    using Law = std::decay_t<decltype(law)>;
-    if (Law::caloric == equation_of_state::Caloric::complete)
-      top.problem("heat", fmt::format("{} derives the temperature from the energy; only \"adiabatic\" is possible", Law::name));
-  });
+  if (equation_of_state::caloric(material.equation_of_state) != equation_of_state::Caloric::complete) return;
+  const std::string why = "the equation of state derives the temperature from the energy";
+  if (path.heat != Heat::adiabatic) top.problem("heat", why + "; only \"adiabatic\" is possible");
+  const bool jumps = std::any_of(path.segments.begin(), path.segments.end(),
+                                 [](const PathSegment& s) { return s.temperature || s.temperature_jump != 0.0; });
+  if (jumps) top.problem("segment", why + "; it cannot jump");
 }
 
 }  // namespace

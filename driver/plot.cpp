@@ -204,16 +204,21 @@ Figure figure_of(const std::string& title, const std::vector<std::pair<std::stri
     const Axis x_axis = axis_for(all_x), y_axis = axis_for(all_y);
     panel.x_label = x_axis.label;
     panel.y_label = y_axis.label;
-    panel.legend = "bottom right";
+    panel.legend = "outside right top vertical";
+    panel.wide = runs.size() > 1 && figure.panels.empty();  // the legend needs room
     for (std::size_t i = 0; i < runs.size(); ++i) {
-      Curve curve{runs.size() > 1 && figure.panels.empty() ? runs[i].first : "", {}, {}, Mark::line, static_cast<int>(i)};
+      Curve curve{runs.size() > 1 && figure.panels.empty() ? runs[i].first : "",
+                  {},
+                  {},
+                  i < palette.size() ? Mark::line : Mark::dashed,
+                  static_cast<int>(i)};
       for (const double value : runs[i].second->find(x)->values) curve.x.push_back(value * x_axis.per_si);
       for (const double value : runs[i].second->find(ordinate)->values) curve.y.push_back(value * y_axis.per_si);
       panel.curves.push_back(std::move(curve));
     }
     figure.panels.push_back(std::move(panel));
   }
-  figure.columns = figure.panels.size() == 1 ? 1 : 2;
+  figure.columns = figure.panels.size() == 1 && runs.size() == 1 ? 1 : 2;
   return figure;
 }
 

@@ -79,7 +79,7 @@ double melting_temperature(const Law& law, const MieGruneisenEnergy& metal, doub
 
 Panel melting_curve(std::vector<Check>& checks) {
   Panel panel{.title = "melting", .x_label = "pressure (GPa)", .y_label = "melting temperature (K)"};
-  panel.legend = "top left";
+  panel.legend = "bottom right";
   const CsvFile csv = experiment("boehler_1997_aluminium_melting", "melting.csv");
   const std::vector<double> p = csv.numbers("pressure", Unit::Pa), T = csv.numbers("temperature", Unit::K),
                             low = csv.numbers("lowest_temperature", Unit::K),

@@ -58,14 +58,21 @@ std::vector<Row> draw(const Entry& entry, const std::filesystem::path& directory
   return rows;
 }
 
+/// Text within a cell of a table, where a bar would end the cell.
+std::string cell(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '|' ? std::string("\\|") : std::string(1, c);
+  return safe;
+}
+
 void write_table(const std::vector<Row>& rows, const std::filesystem::path& path) {
   driver::replace_file(path, [&](const std::filesystem::path& temporary) {
     auto out = fmt::output_file(temporary.string());
     out.print("# What the figures of the gallery verify\n\nWritten by `./bootstrap.sh validate`.\n\n");
     out.print("| figure | quantity | reference | measured | tolerance | result |\n|---|---|---|---|---|---|\n");
     for (const Row& row : rows)
-      out.print("| {} | {} | {} | {} | {} | {} |\n", row.figure, row.check.quantity, row.check.reference, row.value(),
-                row.limit(), row.verdict());
+      out.print("| {} | {} | {} | {} | {} | {} |\n", row.figure, cell(row.check.quantity), cell(row.check.reference),
+                row.value(), row.limit(), row.verdict());
   });
   fmt::print("table: {}\n", path.string());
 }

@@ -97,14 +97,14 @@ Point<double> first_plastic_point(const Material& material, double porosity, dou
   state.porosity = porosity;
   const double K = std::visit([&](const auto& law) { return equation_of_state::bulk_modulus(law, state.density, 0.0); },
                               material.equation_of_state);
-  // Elastic steps of q = 3 G e and sm = K v that reach Y in 400 of them.
-  constexpr double share = 1.0 / 400.0;
+  // Elastic steps of q = 3 G e and sm = K v, of which 2000 reach Y.
+  constexpr double share = 1.0 / 2000.0;
   const double stretch = share * std::cos(angle) * 1e9 / (3.0 * state.shear_modulus),
                volume = share * std::sin(angle) * 3e9 / K;
   const Tensor<double> strain = to_tensor(
       SymmetricTensor<double>{stretch + volume / 3, -0.5 * stretch + volume / 3, -0.5 * stretch + volume / 3, 0, 0, 0});
   constexpr double dt = 1e-7;
-  for (int i = 1; i < 4000; ++i) {
+  for (int i = 1; i < 20000; ++i) {
     const Point<double>& point = update(state, (1.0 / dt) * strain, dt, i * dt);
     state = point.state;
     if (point.plastic_strain_increment > 0.0) return point;
@@ -121,13 +121,15 @@ std::optional<double> height(const GursonTvergaardNeedleman& surface, double mea
 Panel surfaces(std::vector<Check>& checks) {
   Panel panel{.title = "yield surface and returned stresses", .x_label = "mean stress / Y", .y_label = "equivalent stress / Y"};
   panel.y_range = {0.0, 1.3};
-  panel.x_range = {-4.5, 4.5};
+  panel.x_range = {-3.0, 3.0};
   panel.legend = "top right maxrows 2";
+  // Voids of less than 0.5 % in this metal open at a jump at the tip in tension, where the surface shrinks faster than the
+  // stress can fall.
   const Material material = porous_metal(0.0);
   const auto& surface = std::get<GursonTvergaardNeedleman>(*material.yield);
   double worst = 0.0, tip_error = 0.0;
   int colour = 0;
-  for (const double f : {0.001, 0.01, 0.05, 0.1}) {
+  for (const double f : {0.01, 0.03, 0.06, 0.1}) {
     // The tip: cosh(3 q2 sm/(2 Y)) = (1 + q3 f*^2)/(2 q1 f*).
     const double f_star = surface.effective_porosity(f);
     const double tip =
@@ -149,8 +151,9 @@ Panel surfaces(std::vector<Check>& checks) {
     ++colour;
   }
   panel.curves.back().title = "update";
-  checks.push_back({"returned stresses: largest |Phi|", "on the surface: 0", worst, 1e-3});
-  checks.push_back({"hydrostatic limit: largest relative difference", "acosh((1 + q3 f*^2)/(2 q1 f*))", tip_error, 0.02});
+  // The return stops at a residual of 1e-10 of the stress.
+  checks.push_back({"returned stresses: largest |Phi|", "on the surface: 0", worst, 1e-8});
+  checks.push_back({"hydrostatic limit: largest relative difference", "acosh((1 + q3 f*^2)/(2 q1 f*))", tip_error, 2e-3});
   return panel;
 }
 
@@ -210,8 +213,8 @@ Panel triaxialities(std::vector<Check>& checks) {
     panel.curves.push_back({colour == 3 ? "df/dep integrated" : "", stations, exact, Mark::points, colour});
     ++colour;
   }
-  checks.push_back(
-      {"constant triaxiality 1/3 to 3: largest relative difference of f", "df/dep of Gurson's flow, Runge-Kutta", worst, 0.01});
+  checks.push_back({"constant triaxiality 1/3 to 3: largest relative difference of f", "df/dep of Gurson's flow, Runge-Kutta",
+                    worst, 0.005});
   return panel;
 }
 

@@ -182,7 +182,7 @@ void von_mises(std::vector<Panel>& panels, std::vector<Check>& checks) {
                .y_label = "equivalent stress (MPa)"};
   stress.legend = "bottom left";
   stress.x_range = {0.0, 0.6}, stress.y_range = {600.0, 1400.0};
-  Panel margin{.title = "margins at 298 K: points from the tangent by differences",
+  Panel margin{.title = "margins at 298 K coincide; points: tangent by differences",
                .x_label = "plastic strain",
                .y_label = "margin (unstable below 0)"};
   margin.legend = "top right";
@@ -236,7 +236,7 @@ void porous(std::vector<Panel>& panels, std::vector<Check>& checks) {
   stress.curves.push_back(curve("10000 × porosity", strain, m.run["porosity"], 1.0, 1e4, Mark::line, 2));
   mark(stress, fmt::format("Drucker, ep = {:.3f}", first.value_or(0.0)), first, 0.0, 1250.0, 1);
   mark(stress, fmt::format("acoustic tensor, ep = {:.3f}", second.value_or(0.0)), second, 0.0, 1250.0, 3);
-  Panel margin{.title = "margins: points from the tangent by differences",
+  Panel margin{.title = "margins; points: tangent by differences",
                .x_label = "plastic strain of the matrix",
                .y_label = "margin (unstable below 0)"};
   margin.legend = "top right";

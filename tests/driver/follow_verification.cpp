@@ -290,6 +290,23 @@ TEST(Heat, FollowsAPrescribedTemperature) {
   EXPECT_NEAR(run(elastic(), path).last("temperature"), 450.0, 1e-9);
 }
 
+TEST(Heat, ExpandsThePointFreelyWhenTheTemperatureJumps) {
+  Material m = elastic();
+  const equation_of_state::MieGruneisenTemperature law{7800, 4600, 1.5, 1.7, 450, 300};
+  m.equation_of_state = law;
+  PathSegment first = uniaxial_stress(100, 1e-5), second = first;
+  second.temperature_jump = 200;
+  LoadingPath path = path_of({first, second});
+  path.heat = Heat::isothermal;
+  const Journey one = run(m, path_of({first})), both = run(m, path);
+  EXPECT_EQ(both.last("temperature"), 500.0);
+  EXPECT_NEAR(both.last("stress_yy"), 0.0, 1.0);
+  EXPECT_NEAR(both.last("stress_xx") / (2 * one.last("stress_xx")), 1.0, 5e-3);  // Young's modulus falls a little with density
+  // Linear expansion alpha = Gamma rho0 cv/(3 K) per kelvin.
+  const double alpha = 1.7 * 450 / (3 * 4600.0 * 4600.0);
+  EXPECT_NEAR((both.last("strain_yy") - 2 * one.last("strain_yy")) / (200 * alpha), 1.0, 2e-2);
+}
+
 TEST(DeformationGradient, IsReachedExactlyAndReturnsToIdentity) {
   PathSegment there, back;
   there.deformation_gradient = Tensor<double>{1.1, 0.3, 0.0, 0.05, 0.95, -0.1, 0.0, 0.2, 0.9};

@@ -163,8 +163,9 @@ TEST(PorousReturnMapping, EndsOnTheSurfaceWithNormalFlowAndMatchingWorkFromAnySt
             if (f_star >= 0.9999 * steel_surface.ultimate_porosity()) continue;
             const double dq = (t.equivalent_stress - end.equivalent_stress) / (3 * t.shear_modulus);
             const double work = end.equivalent_stress * dq + end.mean_stress * v;
-            EXPECT_NEAR((1 - end.porosity) * Y * x, work,
-                        1e-6 * work + 1e-14 * Y * (t.equivalent_stress / t.shear_modulus + std::abs(v)))
+            // Both are differences of elastic strains of the size of the trial's, which round.
+            const double elastic_strain = t.equivalent_stress / t.shear_modulus + std::abs(t.mean_stress) / t.bulk_modulus;
+            EXPECT_NEAR((1 - end.porosity) * Y * x, work, 1e-6 * work + 2e-14 * Y * elastic_strain)
                 << law.name << " state " << i;
           }
           EXPECT_GT(plastic, 10'000) << law.name;
