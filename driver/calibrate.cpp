@@ -18,14 +18,12 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <random>
 
 #include "driver/commands.hpp"
 #include "driver/plot.hpp"
 #include "models/equation_of_state/thermodynamics.hpp"
-#include "models/input/csv.hpp"
 #include "models/visit.hpp"
 
 namespace brisance::driver {
@@ -33,10 +31,6 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
-
-bool counts(const Test& test, std::size_t i, const Protocol& protocol) {
-  return test.plastic_strain[i] >= protocol.smallest_plastic_strain && test.stress[i] > 0.0;
-}
 
 // The flow curve ------------------------------------------------------------------------------------------------------
 
@@ -425,42 +419,6 @@ Fit calibrate(const Calibration& calibration) {
 
 namespace {
 
-/// One [[experiment]]: a file of measurements, which of its columns is what, and which of its rows count.
-void read_experiment(TableReader& table, const std::filesystem::path& folder, Calibration& calibration) {
-  const std::string name = table.text("file", "CSV file, beside this file");
-  const std::string test = table.text("test", "column that tells the tests apart"), author = table.text_or("author", test),
-                    temperature = table.text("temperature", "column"), strain_rate = table.text("strain_rate", "column"),
-                    pressure = table.text_or("pressure", ""), plastic_strain = table.text("plastic_strain", "column"),
-                    stress = table.text("stress", "column of the true stress");
-  const std::vector<std::string> only = table.optional_texts("tests").value_or(std::vector<std::string>{});
-  std::map<std::string, std::string> where;
-  if (auto filter = table.optional_table("where"))
-    for (const std::string& column : filter->keys()) where[column] = filter->text(column);
-  if (table.problem_count() > 0) return;
-
-  const CsvFile csv = CsvFile::load(folder / name);
-  const auto tests = csv.texts(test), authors = csv.texts(author);
-  const auto T = csv.numbers(temperature, Unit::K), rate = csv.numbers(strain_rate, Unit::per_s),
-             strain = csv.numbers(plastic_strain, Unit::one), Y = csv.numbers(stress, Unit::Pa);
-  const auto p = pressure.empty() ? std::vector<double>(csv.rows(), 0.0) : csv.numbers(pressure, Unit::Pa);
-  std::vector<std::pair<std::vector<std::string>, std::string>> filters;
-  for (const auto& [column, value] : where) filters.emplace_back(csv.texts(column), value);
-  std::map<std::string, std::size_t> position;
-  const std::size_t before = calibration.tests.size();
-  for (std::size_t row = 0; row < csv.rows(); ++row) {
-    if (!only.empty() && std::find(only.begin(), only.end(), tests[row]) == only.end()) continue;
-    if (!std::all_of(filters.begin(), filters.end(), [&](const auto& f) { return f.first[row] == f.second; })) continue;
-    const auto [found, fresh] = position.emplace(tests[row], calibration.tests.size());
-    if (fresh) calibration.tests.push_back({tests[row], authors[row], T[row], rate[row], p[row], {}, {}});
-    calibration.tests[found->second].plastic_strain.push_back(strain[row]);
-    calibration.tests[found->second].stress.push_back(std::fabs(Y[row]));
-  }
-  if (calibration.tests.size() == before) table.problem("file", "no row of " + name + " is selected by tests and where");
-  for (const std::string& wanted : only)
-    if (!position.contains(wanted)) table.problem("tests", "there is no test \"" + wanted + "\" in " + name);
-  calibration.data += (calibration.data.empty() ? "" : ", ") + std::filesystem::path(name).lexically_normal().string();
-}
-
 FitParameter read_parameter(TableReader& table, Material& material) {
   FitParameter p;
   p.key = table.text("key", "value of the material file, such as flow_stress.A");
@@ -494,22 +452,9 @@ Calibration read_calibration(const std::filesystem::path& file, const std::vecto
   Calibration calibration;
   calibration.title = top.text("title", "heading of the report and the figure");
   calibration.file = resolve_material(top, "material");
-  if (top.is_table("experiment")) {
-    TableReader experiment = top.table("experiment");
-    read_experiment(experiment, file.parent_path(), calibration);
-  } else {
-    std::vector<TableReader> experiments = top.tables("experiment");
-    for (TableReader& experiment : experiments) read_experiment(experiment, file.parent_path(), calibration);
-    if (experiments.empty()) top.problem("there is no [experiment] to fit to");
-  }
-  if (auto protocol = top.optional_table("protocol")) {
-    Protocol& p = calibration.protocol;
-    constexpr std::array<std::string_view, 2> directions{"compression", "tension"};
-    p.compression = protocol->choice("direction", directions, 0) == 0;
-    p.adiabatic_from = protocol->number_or("adiabatic_from", p.adiabatic_from, {Unit::per_s, positive, "strain rate"});
-    p.smallest_plastic_strain =
-        protocol->number_or("smallest_plastic_strain", p.smallest_plastic_strain, {Unit::one, non_negative, "plastic strain"});
-  }
+  const Experiments experiments = read_experiments(top, file.parent_path());
+  calibration.tests = experiments.tests, calibration.data = experiments.files;
+  if (auto protocol = top.optional_table("protocol")) read_protocol(*protocol, calibration.protocol);
   constexpr std::array<std::string_view, 2> residuals{"absolute", "relative"};
   calibration.residual = static_cast<Residual>(top.choice("residual", residuals, 1));
   calibration.starts = top.integer_or("starts", 1, 1, 10000);
@@ -525,17 +470,10 @@ Calibration read_calibration(const std::filesystem::path& file, const std::vecto
 
 namespace {
 
-std::string conditions(const Test& test) {
-  std::string text = fmt::format("{:g} K, {:g} /s", test.temperature, test.strain_rate);
-  if (test.pressure != 0.0) text += fmt::format(", {:g} MPa", test.pressure * 1e-6);
-  return text;
-}
-
 void print_report(const Calibration& calibration, const Fit& fit) {
   const Protocol& protocol = calibration.protocol;
   fmt::print("{}\n", calibration.title);
-  fmt::print("uniaxial {}, isothermal below {:g} /s, adiabatic from there; {} residuals, plastic strains from {:g} on\n\n",
-             protocol.compression ? "compression" : "tension", protocol.adiabatic_from,
+  fmt::print("{}; {} residuals, plastic strains from {:g} on\n\n", description(protocol),
              calibration.residual == Residual::absolute ? "absolute" : "relative", protocol.smallest_plastic_strain);
   fmt::print("{:14} {:>6} {:>9} {:>9} {:>7} {:>8} {:>6} {:>6}\n", "author", "T, K", "rate, 1/s", "p, MPa", "points", "RMS, MPa",
              "RMS, %", "mean, %");

@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "driver/compare.hpp"
+#include "driver/experiment.hpp"
+#include "models/input/material_reader.hpp"
 
 namespace brisance::driver {
 

@@ -261,22 +261,18 @@ void check_update(const Material& m, Report& report) {
 }  // namespace
 
 std::vector<Finding> check_material(const std::filesystem::path& path) {
+  const MaterialFile file = read_material_file(path);
   Report report;
-  try {
-    const MaterialFile file = read_material_file(path);
-    report.add(Verdict::ok, "file", file.material.name);
-    check_sources(file, report);
-    check_equation_of_state(file.material, report);
-    check_shear_modulus(file.material, report);
-    check_melting(file.material, report);
-    check_specific_heat(file.material, report);
-    check_flow_stress(file.material, report);
-    check_yield(file.material, report);
-    check_damage(file.material, report);
-    check_update(file.material, report);
-  } catch (const InputError& error) {
-    report.add(Verdict::error, "file", error.what());
-  }
+  report.add(Verdict::ok, "file", file.material.name);
+  check_sources(file, report);
+  check_equation_of_state(file.material, report);
+  check_shear_modulus(file.material, report);
+  check_melting(file.material, report);
+  check_specific_heat(file.material, report);
+  check_flow_stress(file.material, report);
+  check_yield(file.material, report);
+  check_damage(file.material, report);
+  check_update(file.material, report);
   return report.findings;
 }
 
@@ -292,14 +288,24 @@ int run_check(const std::vector<std::filesystem::path>& given) {
   }
   constexpr std::array<std::string_view, 3> words{"ok", "warning", "ERROR"};
   std::array<int, 3> counts{};
+  bool readable = true;
+  const auto findings_of = [&](const std::filesystem::path& file) -> std::vector<Finding> {
+    try {
+      return check_material(file);
+    } catch (const InputError& error) {
+      readable = false;
+      return {{Verdict::error, "file", error.what()}};
+    }
+  };
   for (const std::filesystem::path& file : files) {
     fmt::print("{}\n", file.filename().string());
-    for (const Finding& finding : check_material(file)) {
+    for (const Finding& finding : findings_of(file)) {
       ++counts[static_cast<std::size_t>(finding.verdict)];
       fmt::print("  {:8} {:18} {}\n", words[static_cast<std::size_t>(finding.verdict)], finding.subject, finding.text);
     }
   }
   fmt::print("\n{} files: {} ok, {} warnings, {} errors\n", files.size(), counts[0], counts[1], counts[2]);
+  if (!readable) return bad_input;
   return counts[2] == 0 ? done : failed_while_running;
 }
 

@@ -15,10 +15,11 @@ struct Finding {
   std::string text;
 };
 
-/// Everything that was looked at in one file.
+/// Everything that was looked at in one file. Throws InputError.
 std::vector<Finding> check_material(const std::filesystem::path& file);
 
-/// Checks these files, or all that come with the program, and prints a table. Returns 0 without errors, else 1.
+/// Checks these files, or all that come with the program, and prints a table. Returns 0 without errors, 2 if a file cannot be
+/// read or used, else 1.
 int run_check(const std::vector<std::filesystem::path>& files);
 
 }  // namespace brisance::driver

@@ -14,48 +14,19 @@
 #include "driver/follow.hpp"
 #include "driver/plot.hpp"
 #include "driver/progress.hpp"
-#include "models/input/csv.hpp"
 
 namespace brisance::driver {
 namespace {
 
-/// What the [experiment] table says about a file of measurements: which column is what.
-struct Columns {
-  std::string test, author, temperature, strain_rate, pressure, plastic_strain, stress;
-};
-
-std::vector<Test> read_tests(const std::filesystem::path& path, const Columns& names,
-                             const std::map<std::string, std::string>& where) {
-  const CsvFile csv = CsvFile::load(path);
-  const std::vector<std::string> test = csv.texts(names.test), author = csv.texts(names.author);
-  const std::vector<double> temperature = csv.numbers(names.temperature, Unit::K),
-                            rate = csv.numbers(names.strain_rate, Unit::per_s),
-                            strain = csv.numbers(names.plastic_strain, Unit::one), stress = csv.numbers(names.stress, Unit::Pa);
-  const std::vector<double> pressure =
-      names.pressure.empty() ? std::vector<double>(csv.rows(), 0.0) : csv.numbers(names.pressure, Unit::Pa);
-  std::map<std::string, std::vector<std::string>> filters;
-  for (const auto& [column, value] : where) filters[column] = csv.texts(column);
-  std::vector<Test> tests;
-  for (std::size_t row = 0; row < csv.rows(); ++row) {
-    const bool wanted =
-        std::all_of(where.begin(), where.end(), [&](const auto& w) { return filters[w.first][row] == w.second; });
-    if (!wanted) continue;
-    if (tests.empty() || tests.back().name != test[row])
-      tests.push_back({test[row], author[row], temperature[row], rate[row], pressure[row], {}, {}});
-    tests.back().plastic_strain.push_back(strain[row]);
-    tests.back().stress.push_back(std::abs(stress[row]));
-  }
-  return tests;
-}
-
 /// The path of a test: superposed pressure, then uniaxial stress at the measured rate.
-LoadingPath path_of(const Test& test, const Protocol& protocol, double largest_plastic_strain) {
+LoadingPath path_of(const Test& test, const Comparison& comparison, double largest_plastic_strain) {
+  const Protocol& protocol = comparison.protocol;
   LoadingPath path;
   path.title = test.name;
   path.temperature = test.temperature;
   path.heat = test.strain_rate >= protocol.adiabatic_from ? Heat::adiabatic : Heat::isothermal;
   path.on_failure = OnFailure::keep_going;  // a criterion that fires does not end the measured curve
-  path.strain_increment = protocol.strain_increment;
+  path.strain_increment = comparison.strain_increment;
   path.output.every = 1;
   const auto hold = [](double SymmetricTensor<double>::*component, double stress) {
     SymmetricTensor<double> unit;
@@ -88,11 +59,8 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   return y[i - 1] + (at - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
 }
 
-bool counts(const Test& test, std::size_t i, const Protocol& protocol) {
-  return test.plastic_strain[i] >= protocol.smallest_plastic_strain && test.stress[i] > 0.0;
-}
-
-TestResult compare_one(const Test& test, const Material& material, const Protocol& protocol) {
+TestResult compare_one(const Test& test, const Material& material, const Comparison& comparison) {
+  const Protocol& protocol = comparison.protocol;
   TestResult result;
   double largest = 0.0;
   for (std::size_t i = 0; i < test.plastic_strain.size(); ++i)
@@ -101,7 +69,7 @@ TestResult compare_one(const Test& test, const Material& material, const Protoco
     result.note = "no point beyond the smallest plastic strain";
     return result;
   }
-  const LoadingPath path = path_of(test, protocol, largest);
+  const LoadingPath path = path_of(test, comparison, largest);
   History history(material, path.output);
   Outcome outcome;
   try {
@@ -128,12 +96,6 @@ TestResult compare_one(const Test& test, const Material& material, const Protoco
       result.points.push_back(
           {test.plastic_strain[i], test.stress[i], interpolate(result.plastic_strain, result.stress, test.plastic_strain[i])});
   return result;
-}
-
-std::string conditions(const Test& test) {
-  std::string text = fmt::format("{:g} K, {:g} /s", test.temperature, test.strain_rate);
-  if (test.pressure != 0.0) text += fmt::format(", {:g} MPa", test.pressure * 1e-6);
-  return text;
 }
 
 struct Group {
@@ -177,7 +139,7 @@ void print_tests(const Comparison& comparison, const Results& results) {
 void print_groups(const Comparison& comparison, const Results& results) {
   fmt::print("{:26} {:18} {:>6} {:>7} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11}\n", "tests", "model", "tests", "points",
              "RMS,MPa", "norm.,%", "RMS,%", "mean,%", "tests,%", "median,%", "within 10 %");
-  for (const double from : comparison.protocol.summary_from) {
+  for (const double from : comparison.summary_from) {
     fmt::print("from a plastic strain of {:g}\n", from);
     for (const Group& group : groups())
       for (std::size_t m = 0; m < results.size(); ++m) {
@@ -194,8 +156,7 @@ void print_groups(const Comparison& comparison, const Results& results) {
 void print_report(const Comparison& comparison, const Results& results, double wall_time) {
   const Protocol& protocol = comparison.protocol;
   fmt::print("{}\n", comparison.title);
-  fmt::print("uniaxial {}, isothermal below {:g} /s, adiabatic from there; stress at equal plastic strain, from {:g} on\n",
-             protocol.compression ? "compression" : "tension", protocol.adiabatic_from, protocol.smallest_plastic_strain);
+  fmt::print("{}; stress at equal plastic strain, from {:g} on\n", description(protocol), protocol.smallest_plastic_strain);
   fmt::print(
       "norm.: RMS over the test's mean stress; RMS and mean: of (computed - measured)/measured; tests: RMS of the tests' "
       "norm.\n\n");
@@ -377,41 +338,19 @@ Comparison read_comparison(const std::filesystem::path& file, const std::vector<
   Comparison comparison;
   comparison.title = top.text("title", "heading of the table and the figure");
 
-  TableReader experiment = top.table("experiment", "the measured curves");
-  const std::string csv = experiment.text("file", "CSV file, beside this file");
-  Columns names;
-  names.test = experiment.text("test", "column that tells the tests apart");
-  names.author = experiment.text_or("author", names.test);
-  names.temperature = experiment.text("temperature", "column");
-  names.strain_rate = experiment.text("strain_rate", "column");
-  names.pressure = experiment.text_or("pressure", "");
-  names.plastic_strain = experiment.text("plastic_strain", "column");
-  names.stress = experiment.text("stress", "column of the true stress");
-  std::map<std::string, std::string> where;
-  if (auto filter = experiment.optional_table("where"))
-    for (const std::string& column : filter->keys()) where[column] = filter->text(column);
-
+  comparison.tests = read_experiments(top, file.parent_path()).tests;
   if (auto protocol = top.optional_table("protocol")) {
-    Protocol& p = comparison.protocol;
-    constexpr std::array<std::string_view, 2> directions{"compression", "tension"};
-    p.compression = protocol->choice("direction", directions, 0) == 0;
-    p.adiabatic_from = protocol->number_or("adiabatic_from", p.adiabatic_from, {Unit::per_s, positive, "strain rate"});
-    p.smallest_plastic_strain =
-        protocol->number_or("smallest_plastic_strain", p.smallest_plastic_strain, {Unit::one, non_negative, "plastic strain"});
-    p.strain_increment =
-        protocol->number_or("strain_increment", p.strain_increment,
+    read_protocol(*protocol, comparison.protocol);
+    comparison.strain_increment =
+        protocol->number_or("strain_increment", comparison.strain_increment,
                             {Unit::one, {.lower = 0.0, .upper = 0.05, .lower_open = true}, "strain of a step"});
     if (auto from = protocol->optional_numbers("summary_from", {Unit::one, non_negative, "plastic strains"}))
-      p.summary_from = *from;
+      comparison.summary_from = *from;
   }
   for (TableReader& model : top.tables("model"))
     comparison.models.push_back({model.text("name", "for the table and the figure"), resolve_material(model, "material")});
   if (comparison.models.empty()) top.problem("there is no [[model]] to compare with");
   input.finish();
-
-  comparison.tests = read_tests(file.parent_path() / csv, names, where);
-  if (comparison.tests.empty())
-    throw InputError({{file.string(), 0, 0, "experiment.where", "no row of " + csv + " passes the filter"}});
   return comparison;
 }
 
@@ -422,7 +361,7 @@ Results compare(const Comparison& comparison) {
     results.emplace_back();
     for (const Test& test : comparison.tests) {
       progress.show(fmt::format("{}: {}", model.name, conditions(test)));
-      results.back().push_back(compare_one(test, model.file.material, comparison.protocol));
+      results.back().push_back(compare_one(test, model.file.material, comparison));
     }
   }
   return results;

@@ -6,19 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "driver/experiment.hpp"
 #include "models/input/material_reader.hpp"
 
 namespace brisance::driver {
-
-/// One measured curve and the conditions of its test.
-struct Test {
-  std::string name, author;
-  double temperature = 0.0;            // K
-  double strain_rate = 0.0;            // 1/s
-  double pressure = 0.0;               // Pa, superposed
-  std::vector<double> plastic_strain;  // measured points, in the order of the file
-  std::vector<double> stress;          // Pa, magnitude of the true stress over the superposed pressure
-};
 
 /// A model that the tests are compared with.
 struct Model {
@@ -26,20 +17,13 @@ struct Model {
   MaterialFile file;
 };
 
-/// How the tests are computed and which points count.
-struct Protocol {
-  bool compression = true;
-  double adiabatic_from = 1.0;             // 1/s; below, a test is isothermal
-  double smallest_plastic_strain = 0.002;  // below, a measurement is elastic loading, not flow
-  double strain_increment = 2e-4;
-  std::vector<double> summary_from{0.002};  // the summary is made of the points from each of these plastic strains on
-};
-
 struct Comparison {
   std::string title;
   std::vector<Test> tests;
   std::vector<Model> models;
   Protocol protocol;
+  double strain_increment = 2e-4;
+  std::vector<double> summary_from{0.002};  // the summary is made of the points from each of these plastic strains on
 };
 
 /// Reads a comparison file. Throws InputError.

@@ -30,14 +30,6 @@ Tensor<double> logarithm(const Tensor<double>& A) {
   return sum;
 }
 
-/// The density at which a solid is free of pressure at this temperature; a gas starts at the density of its material.
-double stress_free_density(const Material& material, double temperature) {
-  using equation_of_state::Caloric;
-  const Caloric caloric = equation_of_state::caloric(material.equation_of_state);
-  if (caloric != Caloric::thermal && caloric != Caloric::energy) return material.density;
-  return equation_of_state::density_at(material.equation_of_state, 0.0, temperature);
-}
-
 class Traveller {
  public:
   Traveller(const Material& material, const LoadingPath& path, History& history, const FollowOptions& options)
@@ -45,7 +37,8 @@ class Traveller {
     // The heat sources are switched off where the temperature is ruled from outside.
     if (path.heat != Heat::adiabatic) material_.heating.reset();
     heating_ = material.heating;
-    state_ = initial_state(material, path.temperature, path.density.value_or(stress_free_density(material, path.temperature)));
+    state_ =
+        path.density ? initial_state(material, path.temperature, *path.density) : stress_free_state(material, path.temperature);
     state_.plastic_strain = path.plastic_strain;
     state_.porosity = path.porosity;
     state_.damage = path.damage;

@@ -9,7 +9,7 @@
 namespace brisance {
 
 /// What a number is drawn for: one independent number for each property of a point.
-enum class RandomProperty : std::uint32_t { porosity, damage };
+enum class RandomProperty : std::uint32_t { porosity, damage, strength };
 
 /// Uniform in the open interval (0, 1): 52 random bits, centred in their cells so that neither end can come out.
 inline double uniform(std::uint64_t seed, std::uint64_t id, RandomProperty property) {

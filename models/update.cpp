@@ -1,5 +1,6 @@
 #include "models/update.hpp"
 
+#include "models/equation_of_state/thermodynamics.hpp"
 #include "models/phases.hpp"
 
 namespace brisance {
@@ -42,6 +43,13 @@ State<double> initial_state(const Material& material, double temperature, double
     s.shear_modulus = law.shear_modulus();
   });
   return s;
+}
+
+State<double> stress_free_state(const Material& material, double temperature, double pressure) {
+  const EquationOfState& law = material.equation_of_state;
+  const bool stays = pressure == 0.0 && equation_of_state::caloric(law) == equation_of_state::Caloric::complete;
+  return initial_state(material, temperature,
+                       stays ? material.density : equation_of_state::density_at(law, pressure, temperature));
 }
 
 std::string_view describe(Trouble trouble) {

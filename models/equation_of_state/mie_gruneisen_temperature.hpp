@@ -27,7 +27,7 @@ struct MieGruneisenTemperature {
                            "Gamma0, Grueneisen coefficient; rho Gamma is constant", non_negative},
                  Parameter{"specific_heat", &MieGruneisenTemperature::specific_heat, Unit::J_per_kg_K, "cv", positive},
                  Parameter{"reference_temperature", &MieGruneisenTemperature::reference_temperature, Unit::K,
-                           "T0, temperature of the body at the reference density: that of its initial state", positive}};
+                           "T0, temperature at which the body has its reference density without pressure", positive}};
 
   LinearHugoniot reference() const { return {reference_density, sound_speed, slope, gruneisen}; }
   DensityRange range() const { return reference().range(); }

@@ -18,7 +18,8 @@ struct MechanicalThresholdStress {
   static constexpr std::string_view name = "mechanical_threshold_stress";
   static constexpr std::string_view equation =
       "Y = sigma_a + (Si sigma_i + Se sigma_e) mu(p, T)/mu_ref,  Sj = [1 - (k T/(g0j b^3 mu) ln(r0j/r))^(1/qj)]^(1/pj);  "
-      "d sigma_e/d ep = theta0 (1 - F) + theta_IV F,  F = tanh(alpha X)/tanh(alpha) or F = X (voce), X = sigma_e/sigma_es,  "
+      "d sigma_e/d ep = theta0 (1 - F) + theta_IV F,  F = tanh(alpha X)/tanh(alpha) or F = X^kappa (voce), X = "
+      "sigma_e/sigma_es,  "
       "theta0 = max(a0 + a1 ln r + a2 sqrt(r) - a3 T, 0),  ln(sigma_es/sigma_es0) = k T/(g0es b^3 mu) ln(r/r0es)";
   static constexpr std::string_view source =
       "Follansbee & Kocks, Acta Metall. 36 (1988) 81-93; intrinsic barrier and theta_IV: Goto, Garrett, Bingert, Chen & Gray, "
@@ -33,6 +34,7 @@ struct MechanicalThresholdStress {
   double a0, a1, a2, a3, stage_four_hardening;
   HardeningForm hardening_form;
   double alpha, saturation_stress, saturation_barrier, saturation_rate;
+  double voce_exponent = 1.0;
 
   using Self = MechanicalThresholdStress;
   static constexpr Interval exponent{0.0, 4.0};
@@ -62,7 +64,9 @@ struct MechanicalThresholdStress {
       Parameter{"alpha", &Self::alpha, Unit::one, "shape of the tanh form", positive},
       Parameter{"saturation_stress", &Self::saturation_stress, Unit::Pa, "sigma_es0, saturation at 0 K", positive},
       Parameter{"saturation_barrier", &Self::saturation_barrier, Unit::one, "g0es, normalised activation energy", positive},
-      Parameter{"saturation_rate", &Self::saturation_rate, Unit::per_s, "r0es", positive}};
+      Parameter{"saturation_rate", &Self::saturation_rate, Unit::per_s, "r0es", positive},
+      Parameter{"voce_exponent", &Self::voce_exponent, Unit::one,
+                "kappa of the voce form: 1 is Voce's law, above it hardening lasts", at_least(1.0), 1.0}};
 
   static constexpr double lowest_rate = 1e-8;  // 1/s
 
@@ -88,7 +92,9 @@ struct MechanicalThresholdStress {
     return [*this, initial, one_over_saturation = 1.0 / saturation,
             one_over_tanh = 1.0 / tanh(alpha)]<class Stress>(const Stress& threshold_stress) -> Stress {
       const Stress X = threshold_stress * one_over_saturation;
-      const Stress F = hardening_form == HardeningForm::voce ? X : tanh(alpha * X) * one_over_tanh;
+      const Stress F = hardening_form == HardeningForm::tanh ? tanh(alpha * X) * one_over_tanh
+                       : voce_exponent == 1.0                ? X
+                                                             : pow(max(X, Stress(0.0)), voce_exponent);
       return initial + (stage_four_hardening - initial) * F;
     };
   }

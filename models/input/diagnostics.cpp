@@ -84,8 +84,10 @@ std::optional<std::string_view> nearest(std::string_view word, std::span<const s
     // Twice the distance between lower-case forms, plus one if only the case differs somewhere.
     const int folded = edit_distance(lower_case(word), lower_case(candidate));
     const int distance = 2 * folded + (edit_distance(word, candidate) > folded ? 1 : 0);
-    // A word may be wrong in a third of its letters; one of a single letter only in its case.
-    const int allowed = 2 * static_cast<int>(std::max(word.size(), candidate.size()) / 3) + 1;
+    // A word may be wrong in a third of its letters. In names of one or two letters, where that is none, one may be missing or
+    // too many, but not another.
+    const int third = static_cast<int>(std::max(word.size(), candidate.size()) / 3);
+    const int allowed = 2 * std::max(third, word.size() != candidate.size() ? 1 : 0) + 1;
     if (distance <= allowed && (!best || distance < smallest)) best = candidate, smallest = distance;
   }
   return best;

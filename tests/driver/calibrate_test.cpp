@@ -9,6 +9,7 @@
 #include <random>
 
 #include "driver/follow.hpp"
+#include "tests/models/flow_stress_sets.hpp"
 
 namespace brisance::driver {
 namespace {
@@ -34,34 +35,12 @@ Material copper_without_flow_stress() {
 }
 Material johnson_cook() {
   Material m = copper_without_flow_stress();
-  m.flow_stress = flow_stress::JohnsonCook{
-      .A = 90e6, .B = 292e6, .n = 0.31, .C = 0.025, .m = 1.09, .reference_strain_rate = 1.0, .reference_temperature = 298.0};
+  m.flow_stress = flow_stress::sets::johnson_cook_copper;
   return m;
 }
 Material threshold_stress() {
   Material m = copper_without_flow_stress();
-  m.flow_stress = flow_stress::MechanicalThresholdStress{.athermal_stress = 40e6,
-                                                         .k_over_b3 = 0.823e6,
-                                                         .reference_shear_modulus = 47.7e9,
-                                                         .intrinsic_stress = 0.0,
-                                                         .intrinsic_barrier = 0.0,
-                                                         .intrinsic_rate = 0.0,
-                                                         .intrinsic_p = 0.0,
-                                                         .intrinsic_q = 0.0,
-                                                         .evolving_barrier = 1.6,
-                                                         .evolving_rate = 1e7,
-                                                         .evolving_p = 2.0 / 3.0,
-                                                         .evolving_q = 1.0,
-                                                         .a0 = 2390e6,
-                                                         .a1 = 12e6,
-                                                         .a2 = 1.696e6,
-                                                         .a3 = 0.0,
-                                                         .stage_four_hardening = 0.0,
-                                                         .hardening_form = flow_stress::HardeningForm::tanh,
-                                                         .alpha = 2.0,
-                                                         .saturation_stress = 770e6,
-                                                         .saturation_barrier = 0.2625,
-                                                         .saturation_rate = 1e7};
+  m.flow_stress = flow_stress::sets::threshold_copper;
   return m;
 }
 
@@ -141,36 +120,36 @@ TEST(Calibration, FindsThresholdStressParametersFromExactData) {
   for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(fit.estimates[k].value / expected[k], 1.0, search_tolerance);
 }
 
-/// A 95 % interval that is right misses the truth in 5 of 100 samples on average. Over all parameters 90 to 98 of 100 must hit;
-/// a single one, whose count has a standard deviation of 2.2, may fall three of these below 95.
-void expect_coverage(const Material& truth, const std::vector<FitParameter>& parameters, std::uint64_t first_seed) {
-  constexpr int samples = 100, fewest_of_one = 88;
-  constexpr double fewest = 90.0, most = 98.0, deviation = 0.02;
+/// A 95 % interval that is right misses the truth in 5 of 100 samples on average. Of each parameter's intervals 90 to 98 % must
+/// cover it. In 100 samples that share has a standard deviation of 2.2 %, so that some parameter of ten falls outside by chance
+/// alone; 300 samples have 1.3 %, which leaves more than two on either side. (In 4000 samples 94.5 to 95.1 % of the intervals
+/// of the threshold stress parameters cover the truth, in 2000 samples 94.6 to 95.8 % of those of Johnson and Cook's.)
+void expect_coverage(const Material& truth, const std::vector<FitParameter>& parameters) {
+  constexpr int samples = 300;
+  constexpr double least = 90.0, most = 98.0, deviation = 0.02;
   const auto expected = values(truth, parameters);
   std::vector<int> covered(parameters.size(), 0);
   double deviation_found = 0.0;
   for (int sample = 0; sample < samples; ++sample) {
-    const Fit fit = calibrate(synthetic(truth, deviation, first_seed + static_cast<std::uint64_t>(sample), parameters));
+    const Fit fit = calibrate(synthetic(truth, deviation, static_cast<std::uint64_t>(sample) + 1, parameters));
     deviation_found += fit.residual_deviation / samples;
     for (std::size_t k = 0; k < expected.size(); ++k)
       covered[k] += fit.estimates[k].lower_95 <= expected[k] && expected[k] <= fit.estimates[k].upper_95;
   }
-  EXPECT_NEAR(deviation_found / deviation, 1.0, 0.03);  // its own deviation is 1/sqrt(2 91 100) = 0.7 %
-  double mean = 0.0;
+  EXPECT_NEAR(deviation_found / deviation, 1.0, 0.02);  // its own deviation is 1/sqrt(2 91 300) = 0.4 %
   for (std::size_t k = 0; k < expected.size(); ++k) {
-    std::printf("%s: %d of %d intervals cover the truth\n", parameters[k].key.c_str(), covered[k], samples);
-    EXPECT_GE(covered[k], fewest_of_one) << parameters[k].key;
-    mean += covered[k] / static_cast<double>(expected.size());
+    const double share = 100.0 * covered[k] / samples;
+    std::printf("%s: %.1f %% of the intervals cover the truth\n", parameters[k].key.c_str(), share);
+    EXPECT_GE(share, least) << parameters[k].key;
+    EXPECT_LE(share, most) << parameters[k].key;
   }
-  EXPECT_GE(mean, fewest);
-  EXPECT_LE(mean, most);
 }
 
 TEST(Calibration, IntervalsOfJohnsonCookParametersCoverTheTruth) {
-  expect_coverage(johnson_cook(), johnson_cook_parameters(), 1);
+  expect_coverage(johnson_cook(), johnson_cook_parameters());
 }
 TEST(Calibration, IntervalsOfThresholdStressParametersCoverTheTruth) {
-  expect_coverage(threshold_stress(), threshold_stress_parameters(), 1);
+  expect_coverage(threshold_stress(), threshold_stress_parameters());
 }
 
 TEST(Calibration, SaysWhichParametersTheTestsDoNotTell) {

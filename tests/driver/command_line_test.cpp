@@ -278,7 +278,24 @@ TEST(Check, FindsABulkModulusThatDoesNotBelong) {
   EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
     return f.verdict == Verdict::warning && f.subject == "equation_of_state" && contains(f.text, "bulk modulus");
   }));
-  EXPECT_EQ(call({"check", write_text(directory / "broken.toml", "density = 1\n")}).code, failed_while_running);
+}
+
+TEST(Check, TellsUnusableFilesFromUnphysicalMaterials) {
+  const fs::path directory = scratch();
+  const std::string sound = source / "data/materials/steel_4340.toml";
+  const std::string broken = write_text(directory / "broken.toml", "density = 1\n");
+  for (const std::string& file : {broken, std::string(directory / "absent.toml"), directory.string()}) {
+    EXPECT_EQ(call({"check", file}).code, bad_input) << file;
+    const Answer both = call({"check", file, sound});  // the others are still looked at
+    EXPECT_EQ(both.code, bad_input) << file;
+    EXPECT_TRUE(contains(both.out, "steel_4340.toml")) << file;
+  }
+  std::ifstream in(sound);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string stated = "value = \"1793 K\"";
+  ASSERT_TRUE(contains(text, stated));
+  text.replace(text.find(stated), stated.size(), "value = \"7931 K\"");
+  EXPECT_EQ(call({"check", write_text(directory / "unphysical.toml", text)}).code, failed_while_running);
 }
 
 class EveryCase : public testing::TestWithParam<fs::path> {};

@@ -9,6 +9,7 @@
 
 #include "driver/point.hpp"
 #include "models/update.hpp"
+#include "tests/models/sample_materials.hpp"
 
 namespace brisance::driver {
 namespace {
@@ -38,13 +39,9 @@ Material elastic_copper() {
 Material johnson_cook_copper(double rate_coefficient, double thermal_exponent) {
   Material m = elastic_copper();
   m.specific_heat = specific_heat::Constant{.value = 383.0};
-  m.flow_stress = flow_stress::JohnsonCook{.A = 90e6,
-                                           .B = 292e6,
-                                           .n = 0.31,
-                                           .C = rate_coefficient,
-                                           .m = thermal_exponent,
-                                           .reference_strain_rate = 1.0,
-                                           .reference_temperature = room_temperature};
+  flow_stress::JohnsonCook law = flow_stress::sets::johnson_cook_copper;
+  law.C = rate_coefficient, law.m = thermal_exponent;
+  m.flow_stress = law;
   m.yield = yield::VonMises{};
   Table chi;
   chi.size = 1, chi.y[0] = 0.9;
@@ -195,28 +192,7 @@ Material hy100_porous() {
   m.shear_modulus = shear_modulus::VarshniChenGray{.zero_temperature_value = 71.46e9, .D = 2.9e9, .T0 = 204.0};
   m.melting = melting::Constant{.value = 1793.0};
   m.specific_heat = specific_heat::SteelGoto{};
-  m.flow_stress = flow_stress::MechanicalThresholdStress{.athermal_stress = 40e6,
-                                                         .k_over_b3 = 0.905e6,
-                                                         .reference_shear_modulus = 71.46e9,
-                                                         .intrinsic_stress = 1341e6,
-                                                         .intrinsic_barrier = 1.161,
-                                                         .intrinsic_rate = 1e13,
-                                                         .intrinsic_p = 0.5,
-                                                         .intrinsic_q = 1.5,
-                                                         .evolving_barrier = 1.6,
-                                                         .evolving_rate = 1e7,
-                                                         .evolving_p = 2.0 / 3.0,
-                                                         .evolving_q = 1.0,
-                                                         .a0 = 6e9,
-                                                         .a1 = 0.0,
-                                                         .a2 = 0.0,
-                                                         .a3 = 2.0758e6,
-                                                         .stage_four_hardening = 200e6,
-                                                         .hardening_form = flow_stress::HardeningForm::tanh,
-                                                         .alpha = 3.0,
-                                                         .saturation_stress = 822e6,
-                                                         .saturation_barrier = 0.112,
-                                                         .saturation_rate = 1e7};
+  m.flow_stress = flow_stress::sets::threshold_hy100;
   m.yield = yield::GursonTvergaardNeedleman{.q1 = 1.5,
                                             .q2 = 1.0,
                                             .q3 = 2.25,
@@ -241,18 +217,7 @@ Material hy100_porous() {
 Material preston_tonks_wallace_copper() {
   Material m = johnson_cook_copper(0.0, 1.0);
   m.shear_modulus = shear_modulus::PrestonTonksWallace{.zero_temperature_value = 51.8e9, .A = 28e-12, .alpha = 0.20};
-  m.flow_stress = flow_stress::PrestonTonksWallace{.theta = 0.025,
-                                                   .p = 2.0,
-                                                   .s0 = 0.0085,
-                                                   .s_inf = 0.00055,
-                                                   .kappa = 0.11,
-                                                   .gamma = 1e-5,
-                                                   .y0 = 0.0001,
-                                                   .y_inf = 0.0001,
-                                                   .y1 = 0.094,
-                                                   .y2 = 0.575,
-                                                   .beta = 0.25,
-                                                   .atomic_mass = 63.546};
+  m.flow_stress = flow_stress::sets::preston_copper;
   return m;
 }
 
@@ -268,17 +233,7 @@ Material pbx9501() {
                                                                    .specific_heat = 996.0,
                                                                    .reference_temperature = room_temperature};
   m.specific_heat = specific_heat::Constant{.value = 996.0};
-  m.viscoelastic = viscoelastic::ViscoScram{.shear_moduli = {3.5e8, 1.739e8, 5.212e8, 9.085e8, 6.875e8},
-                                            .relaxation_rates = {0.0, 7.32e3, 7.32e4, 7.32e5, 2e6},
-                                            .crack_scale = 1e-3,
-                                            .initial_crack_radius = 3e-5,
-                                            .crack_exponent = 10.0,
-                                            .max_crack_speed = 300.0,
-                                            .toughness = 5e5,
-                                            .friction = 0.35,
-                                            .tension_speed_factor = 12.0,
-                                            .speed_exponent = 0.90564746,
-                                            .speed_coefficient = -2.90178468};
+  m.viscoelastic = samples::viscoelastics().front();
   m.heating = johnson_cook_copper(0.0, 1.0).heating;
   return m;
 }
@@ -288,16 +243,7 @@ Material steinberg_lund_copper() {
   m.shear_modulus = shear_modulus::SteinbergCochranGuinan{
       .ambient_value = 47.7e9, .A = 28.3e-12, .B = 3.77e-4, .reference_temperature = 300.0};
   m.melting = melting::SteinbergCochranGuinan{.ambient_value = 1790.0, .gruneisen = 2.02, .a = 1.5};
-  m.flow_stress = flow_stress::SteinbergCochranGuinanLund{.initial_yield_stress = 120e6,
-                                                          .beta = 36.0,
-                                                          .n = 0.45,
-                                                          .initial_plastic_strain = 0.0,
-                                                          .largest_yield_stress = 640e6,
-                                                          .reference_shear_modulus = 47.7e9,
-                                                          .attempt_rate = 7.1e5,
-                                                          .drag_coefficient = 1.2e4,
-                                                          .kink_energy = 0.31 * 1.602176634e-19,
-                                                          .peierls_stress = 20e6};
+  m.flow_stress = flow_stress::sets::lund_copper;
   return m;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Published parameter sets on which the flow stress tests stand. Values as in data/materials, SI.
+// Published parameter sets of flow stresses, for all tests. Values as in data/materials, SI.
 
 #include "models/flow_stress/flow_stress.hpp"
 
@@ -9,6 +9,9 @@ inline constexpr double electron_volt = 1.602176634e-19;  // J
 
 inline const JohnsonCook steel_4340{
     .A = 792e6, .B = 510e6, .n = 0.26, .C = 0.014, .m = 1.03, .reference_strain_rate = 1.0, .reference_temperature = 298.0};
+
+inline const JohnsonCook johnson_cook_copper{
+    .A = 90e6, .B = 292e6, .n = 0.31, .C = 0.025, .m = 1.09, .reference_strain_rate = 1.0, .reference_temperature = 298.0};
 
 inline const MechanicalThresholdStress threshold_hy100{.athermal_stress = 40e6,
                                                        .k_over_b3 = 0.905e6,
@@ -174,14 +177,22 @@ inline MechanicalThresholdStress with_voce_hardening(MechanicalThresholdStress l
   return law;
 }
 
+inline MechanicalThresholdStress with_voce_exponent(double kappa, MechanicalThresholdStress law) {
+  law = with_voce_hardening(law);
+  law.voce_exponent = kappa;
+  return law;
+}
+
 /// Calls f(law, name) for every flow stress in the list, some of them with more than one metal.
 template <class F>
 void for_each(F&& f) {
   f(steel_4340, "Johnson-Cook, 4340");
+  f(johnson_cook_copper, "Johnson-Cook, copper");
   f(threshold_hy100, "mechanical threshold stress, HY-100");
   f(threshold_copper, "mechanical threshold stress, copper");
   f(threshold_al6061, "mechanical threshold stress, 6061-T6");
   f(with_voce_hardening(threshold_copper), "mechanical threshold stress, Voce hardening");
+  f(with_voce_exponent(2.5, threshold_copper), "mechanical threshold stress, Voce hardening with exponent 2.5");
   f(steinberg_al6061, "Steinberg-Cochran-Guinan, 6061-T6");
   f(steinberg_copper, "Steinberg-Cochran-Guinan, copper");
   f(lund_4340, "Steinberg-Cochran-Guinan-Lund, 4340");

@@ -106,6 +106,30 @@ TEST(MechanicalThresholdStress, VoceHardeningIsTheExponential) {
   }
 }
 
+TEST(MechanicalThresholdStress, VoceHardeningWithExponentTwoIsTheHyperbolicTangent) {
+  const auto law = sets::with_voce_exponent(2.0, sets::threshold_copper);  // dX/de = (theta0/sigma_es)(1 - X^2)
+  const auto at = copper_at(0.0, 1e3, 300.0);
+  const double saturation = saturation_of(law, at), initial = initial_hardening_of(law, at);
+  for (double strain : {0.02, 0.1, 0.4, 1.0})
+    expect_close(strained(law, at, 0.0, strain, 4000), saturation * std::tanh(initial * strain / saturation), 1e-6);
+}
+
+TEST(MechanicalThresholdStress, VoceHardeningWithAnExponentFollowsItsSeries) {
+  // The strain to reach X is (sigma_es/theta0) times the integral of 1/(1 - X^kappa), the sum of X^(k kappa + 1)/(k kappa + 1).
+  const auto at = copper_at(0.0, 1e3, 300.0);
+  for (double kappa : {1.0, 1.5, 3.0}) {
+    const auto law = sets::with_voce_exponent(kappa, sets::threshold_copper);
+    const double saturation = saturation_of(law, at), initial = initial_hardening_of(law, at);
+    for (double strain : {0.02, 0.1, 0.3}) {
+      const double X = strained(law, at, 0.0, strain, 4000) / saturation;
+      ASSERT_LT(X, 0.95);  // where the series converges within the terms below
+      double sum = 0.0;
+      for (int k = 0; k < 2000; ++k) sum += std::pow(X, k * kappa + 1.0) / (k * kappa + 1.0);
+      expect_close(strain, saturation / initial * sum, 1e-5);
+    }
+  }
+}
+
 TEST(MechanicalThresholdStress, TanhHardeningFollowsItsQuadrature) {
   for (const auto* law : {&sets::threshold_copper, &sets::threshold_al6061}) {
     const auto at = copper_at(0.0, 1e3, 400.0);

@@ -131,7 +131,7 @@ inline Material steel_4340() {
   m.shear_modulus = shear_modulus::SteinbergCochranGuinan{81.9e9, 21.98e-12, 4.725e-4, 300.0};
   m.melting = melting::Constant{1793.0};
   m.specific_heat = specific_heat::Constant{477.0};
-  m.flow_stress = steel_johnson_cook;
+  m.flow_stress = flow_stress::sets::steel_4340;
   m.yield = yield::VonMises{};
   m.damage = damages().front();
   m.failure = {failure::Melting{}, failure::CriticalDamage{1.0}};
@@ -148,7 +148,7 @@ inline Material steel_hy100() {
   m.shear_modulus = shear_modulus::VarshniChenGray{71.46e9, 2.9e9, 204.0};
   m.melting = melting::Constant{1790.0};
   m.specific_heat = specific_heat::SteelGoto{};
-  m.flow_stress = hy100_threshold;
+  m.flow_stress = flow_stress::sets::threshold_hy100;
   m.yield = yields()[1];
   m.porosity = porosities()[1];
   m.initial_porosity = initial_porosities()[1];
@@ -178,7 +178,7 @@ inline Material copper_preston_tonks_wallace() {
   Material m = detail::copper();
   m.name = "copper (Preston-Tonks-Wallace)";
   m.shear_modulus = shear_modulus::PrestonTonksWallace{51.8e9, 28e-12, 0.20};
-  m.flow_stress = flow_stresses()[5].law;
+  m.flow_stress = flow_stress::sets::preston_copper;
   return m;
 }
 
@@ -187,7 +187,7 @@ inline Material copper_steinberg_lund() {
   Material m = detail::copper();
   m.name = "copper (Steinberg-Lund)";
   m.shear_modulus = shear_modulus::SteinbergCochranGuinan{47.7e9, 28.3e-12, 3.77e-4, 300.0};
-  m.flow_stress = flow_stresses()[3].law;
+  m.flow_stress = flow_stress::sets::lund_copper;
   return m;
 }
 

@@ -671,7 +671,7 @@ Material softening_steel() {
   Material m = hypoelastic();
   m.melting = melting::Constant{1793.0};
   m.specific_heat = specific_heat::Constant{477.0};
-  m.flow_stress = steel_johnson_cook;
+  m.flow_stress = flow_stress::sets::steel_4340;
   m.yield = yield::VonMises{};
   m.heating = Heating{constant_table(0.9), false, false};
   m.stability = {stability::Drucker{0.0}};

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "models/viscoelastic/viscoelastic.hpp"
+#include "tests/models/sample_materials.hpp"
 
 namespace brisance::viscoelastic {
 namespace {
@@ -16,17 +17,7 @@ using History = ScramHistory<double>;
 using Deviator = SymmetricTensor<double>;
 
 // PBX 9501: Bennett et al. (1998), Hackett & Bennett (2000).
-const ViscoScram pbx9501{.shear_moduli = {3.5e8, 1.739e8, 5.212e8, 9.085e8, 6.875e8},
-                         .relaxation_rates = {0.0, 7.32e3, 7.32e4, 7.32e5, 2.0e6},
-                         .crack_scale = 1e-3,
-                         .initial_crack_radius = 3e-5,
-                         .crack_exponent = 10.0,
-                         .max_crack_speed = 300.0,
-                         .toughness = 5e5,
-                         .friction = 0.35,
-                         .tension_speed_factor = 12.0,
-                         .speed_exponent = 0.90564746,
-                         .speed_coefficient = -2.90178468};
+const ViscoScram pbx9501 = std::get<ViscoScram>(samples::viscoelastics().front());
 
 ViscoScram with(double ViscoScram::*member, double value, ViscoScram law = pbx9501) {
   law.*member = value;

@@ -247,6 +247,13 @@ TEST(Nearest, WordIsFoundThroughOneSlip) {
     EXPECT_EQ(nearest(slip, words), "length") << slip;
   EXPECT_EQ(nearest("a", words), "A");
   EXPECT_EQ(nearest("refrence_temprature", words), "reference_temperature");
+  constexpr std::array<std::string_view, 4> short_words = {"C", "n", "s0", "y1"};
+  EXPECT_EQ(nearest("CC", short_words), "C");
+  EXPECT_EQ(nearest("cc", short_words), "C");
+  EXPECT_EQ(nearest("S0", short_words), "s0");
+  EXPECT_EQ(nearest("s", short_words), "s0");
+  EXPECT_EQ(nearest("s00", short_words), "s0");
+  for (const char* other : {"m", "y2", "x3", "xyz"}) EXPECT_EQ(nearest(other, short_words), std::nullopt) << other;
   for (const char* other : {"", "x", "colour", "height_of_the_rod"}) EXPECT_EQ(nearest(other, words), std::nullopt) << other;
   EXPECT_EQ(nearest(std::string(1'000'000, 'a'), words), std::nullopt);
 }
