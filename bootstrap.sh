@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs what is missing (Debian packages), builds, and does one of:
-#   run       the main job: 6061-T6 through 95 measured curves; prints the table, shows the figure
+#   run       the main job: Taylor impact of annealed copper; prints computed against measured, shows the figure
+#   point     the point driver's job: 6061-T6 through 95 measured curves; prints the table, shows the figure
 #   test      unit and verification tests
-#   validate  the verification figures of plots/gallery and their table   (validate NAME: one of them; --list)
-#   bench     nanoseconds per point and update, with the environment beside them
+#   validate  figures of the laws and Taylor impacts against experiment   (validate NAME: one; --full: all; --list)
+#   bench     nanoseconds per update and per particle-step, with the environment beside them
 # Environment: BRISANCE_PRESET (default release; ci makes warnings errors), BRISANCE_JOBS (default: all cores).
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -13,7 +14,7 @@ packages=(build-essential cmake ninja-build pkg-config libeigen3-dev librandom12
           libgnuplot-iostream-dev gnuplot-nox libboost-iostreams-dev libboost-filesystem-dev libboost-system-dev)
 
 usage() {
-  sed -n '2,7s/^# \{0,1\}//p' "$0"
+  sed -n '2,8s/^# \{0,1\}//p' "$0"
   exit 2
 }
 
@@ -31,6 +32,7 @@ install_packages() {
 }
 
 preset=${BRISANCE_PRESET:-release}
+export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}  # waiting threads leave the cores to others
 jobs=${BRISANCE_JOBS:-$(nproc)}
 build=build/$preset
 
@@ -52,6 +54,12 @@ case $action in
   run)
     install_packages
     build -DBRISANCE_BUILD_TESTS=OFF
+    "$build/simulator/brisance" run data/cases/taylor_copper_190_mts.toml -o out/taylor_copper_190_mts --overwrite "$@"
+    show out/taylor_copper_190_mts/profile_bar.png
+    ;;
+  point)
+    install_packages
+    build -DBRISANCE_BUILD_TESTS=OFF
     mkdir -p out
     "$build/driver/pointdriver" compare data/cases/point_6061_t6.toml -o out/6061_t6.csv --plot out/6061_t6.png --plot out/6061_t6.svg "$@"
     show out/6061_t6.png
@@ -64,12 +72,18 @@ case $action in
   validate)
     install_packages
     build -DBRISANCE_BUILD_TESTS=OFF
-    "$build/plots/gallery" "$@"
+    case ${1:-} in
+      "" | --full) "$build/plots/gallery" && "$build/plots/taylor" "$@" ;;
+      --list) "$build/plots/gallery" --list && "$build/plots/taylor" --list ;;
+      taylor_*) "$build/plots/taylor" "$@" ;;
+      *) "$build/plots/gallery" "$@" ;;
+    esac
     ;;
   bench)
     install_packages
     build -DBRISANCE_BUILD_TESTS=ON
-    "$build/tests/bench" "$@"
+    "$build/tests/bench"
+    "$build/tests/bench_simulator" "$@"
     ;;
   *) usage ;;
 esac

@@ -13,7 +13,7 @@
 #include "driver/commands.hpp"
 #include "driver/follow.hpp"
 #include "driver/plot.hpp"
-#include "driver/progress.hpp"
+#include "models/programs/progress.hpp"
 
 namespace brisance::driver {
 namespace {

@@ -149,19 +149,6 @@ void History::drop_every_other() {
   stride_ *= 2;
 }
 
-void replace_file(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write_to) {
-  const std::filesystem::path temporary = path.string() + ".part";
-  try {
-    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-    write_to(temporary);
-    std::filesystem::rename(temporary, path);
-  } catch (const std::exception& error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path.string(), error.what()));
-  }
-}
-
 void write_csv(const Record& record, const std::filesystem::path& path) {
   replace_file(path, [&](const std::filesystem::path& temporary) {
     auto out = fmt::output_file(temporary.string());

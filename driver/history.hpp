@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "driver/point.hpp"
+#include "models/programs/files.hpp"
 
 namespace brisance::driver {
 
@@ -72,8 +73,5 @@ class History {
 /// Writes a table to PATH, whose ending chooses the format: .csv, .h5 or .hdf5. The file appears complete or not at all.
 void write(const Record& table, const std::filesystem::path& path);
 void write_csv(const Record& table, const std::filesystem::path& path);
-
-/// Calls write_to(temporary path), then moves the result to its name.
-void replace_file(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write_to);
 
 }  // namespace brisance::driver

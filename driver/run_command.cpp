@@ -11,8 +11,8 @@
 #include "driver/follow.hpp"
 #include "driver/path_reader.hpp"
 #include "driver/plot.hpp"
-#include "driver/progress.hpp"
 #include "driver/rate_form.hpp"
+#include "models/programs/progress.hpp"
 
 namespace brisance::driver {
 namespace {

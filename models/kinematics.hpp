@@ -29,10 +29,10 @@ inline constexpr auto half_logarithm_series = [] {
 /// The powers of a tensor by its invariants (Cayley-Hamilton): A^k = a A^2 + b A + c I.
 template <class Real>
 struct Powers {
-  Real I1, I2, I3;
+  Real I1, minus_I2, I3;
   Real a{1.0}, b{0.0}, c{0.0};  // of A^2
   void next() {
-    const Real a_next = a * I1 + b, b_next = c - a * I2, c_next = a * I3;
+    const Real a_next = multiply_add(a, I1, b), b_next = multiply_add(a, minus_I2, c), c_next = a * I3;
     a = a_next, b = b_next, c = c_next;
   }
 };
@@ -43,19 +43,32 @@ struct Sum {
   Real a, b{0.0}, c{0.0};
 };
 
-/// Sums a series up to the power `last`; where `large`, up to the last coefficient, whatever the neighbouring lanes do.
-template <std::size_t last, class Real, std::size_t count>
-Sum<Real> sum_series(const std::array<double, count>& coefficients, Powers<Real> power, const mask_of<Real>& large) {
+/// Sums a series up to the power `least`; where the tensor is not `small` up to the power `last`, and where it is `large` up to
+/// the last coefficient: each lane as far as it needs, whatever its neighbours do.
+template <std::size_t least, std::size_t last, class Real, std::size_t count>
+Sum<Real> sum_series(const std::array<double, count>& coefficients, Powers<Real> power, const mask_of<Real>& small,
+                     const mask_of<Real>& large) {
   Sum<Real> sum{Real(coefficients[2])};
-  const auto add = [&](Sum<Real>& to, std::size_t k) {
+  const auto add = [&](std::size_t k) {
     power.next();
-    to.a = to.a + coefficients[k] * power.a, to.b = to.b + coefficients[k] * power.b, to.c = to.c + coefficients[k] * power.c;
+    const Real factor(coefficients[k]);
+    sum.a = multiply_add(factor, power.a, sum.a), sum.b = multiply_add(factor, power.b, sum.b);
+    sum.c = multiply_add(factor, power.c, sum.c);
   };
-  for (std::size_t k = 3; k <= last; ++k) add(sum, k);
-  if (none(large)) return sum;
-  Sum<Real> longer = sum;
-  for (std::size_t k = last + 1; k < count; ++k) add(longer, k);
-  return {select(large, longer.a, sum.a), select(large, longer.b, sum.b), select(large, longer.c, sum.c)};
+  const auto keep = [&](const mask_of<Real>& where, const Sum<Real>& shorter) {
+    sum = {select(where, shorter.a, sum.a), select(where, shorter.b, sum.b), select(where, shorter.c, sum.c)};
+  };
+  for (std::size_t k = 3; k <= least; ++k) add(k);
+  if (all(small)) return sum;
+  const Sum<Real> of_small = sum;
+  for (std::size_t k = least + 1; k <= last; ++k) add(k);
+  const Sum<Real> of_middle = sum;
+  if (any(large)) {
+    for (std::size_t k = last + 1; k < count; ++k) add(k);
+    keep(!large, of_middle);
+  }
+  keep(small, of_small);
+  return sum;
 }
 
 }  // namespace detail
@@ -66,11 +79,10 @@ template <class Real>
 Tensor<Real> exponential_minus_identity(const Tensor<Real>& A) {
   const Tensor<Real> A2 = A * A;
   const Real I1 = trace(A), I2 = 0.5 * (I1 * I1 - trace(A2)), I3 = determinant(A);
-  const mask_of<Real> large = double_dot(A, A) > 0.03 * 0.03;
-  const auto sum = detail::sum_series<8>(detail::exponential_series, detail::Powers<Real>{I1, I2, I3}, large);
-  Tensor<Real> result = sum.a * A2 + (1.0 + sum.b) * A;
-  result.xx = result.xx + sum.c, result.yy = result.yy + sum.c, result.zz = result.zz + sum.c;
-  return result;
+  const Real size2 = double_dot(A, A);
+  const auto sum = detail::sum_series<5, 8>(detail::exponential_series, detail::Powers<Real>{I1, -I2, I3},
+                                            size2 <= 0.0015 * 0.0015, size2 > 0.03 * 0.03);
+  return add_to_diagonal(combine(sum.a, A2, Real(1.0 + sum.b), A), sum.c);
 }
 
 template <class Real>
@@ -96,12 +108,12 @@ PolarIncrement<Real> polar_increment(const Tensor<Real>& B) {
   PolarIncrement<Real> result;
   const Real size2 = trace(E2);
   result.size = sqrt(size2);
-  const mask_of<Real> large = size2 > 0.004 * 0.004;
-  const detail::Powers<Real> powers{I1, I2, I3};
-  const auto root = detail::sum_series<7>(detail::inverse_root_series, powers, large);
-  const auto logarithm = detail::sum_series<7>(detail::half_logarithm_series, powers, large);
-  const SymmetricTensor<Real> inverse_V = add_to_diagonal(root.a * E2 + (root.b - 0.5) * E, Real(1.0 + root.c));
-  result.strain = add_to_diagonal(logarithm.a * E2 + (logarithm.b + 0.5) * E, logarithm.c);
+  const mask_of<Real> small = size2 <= 0.0025 * 0.0025, large = size2 > 0.004 * 0.004;
+  const detail::Powers<Real> powers{I1, -I2, I3};
+  const auto root = detail::sum_series<6, 7>(detail::inverse_root_series, powers, small, large);
+  const auto logarithm = detail::sum_series<6, 7>(detail::half_logarithm_series, powers, small, large);
+  const SymmetricTensor<Real> inverse_V = add_to_diagonal(combine(root.a, E2, Real(root.b - 0.5), E), Real(1.0 + root.c));
+  result.strain = add_to_diagonal(combine(logarithm.a, E2, Real(logarithm.b + 0.5), E), logarithm.c);
   result.rotation = to_tensor(inverse_V) * dF;
   return result;
 }

@@ -23,12 +23,13 @@ void report(Point<Real>& p, const mask_of<Real>& where, Trouble trouble) {
 /// The density of the metal itself (kg/m^3): dilatant plastic flow opens voids, it does not stretch what is between them.
 template <class Real>
 Real metal_density(const State<Real>& s) {
+  if (none(s.plastic_volume_strain != 0.0)) return s.density;
   return s.density * exp(s.plastic_volume_strain);
 }
 
 /// Moves the deformation gradient, density and stress to the end of the step; the stress only rotates here.
 template <class M, class Real>
-void kinematics(const M& material, Batch<Real>& batch, double dt) {
+[[gnu::flatten]] void kinematics(const M& material, Batch<Real>& batch, double dt) {
   for (Point<Real>& p : batch) {
     State<Real>& s = p.state;
     const Tensor<Real> A = Real(dt) * p.velocity_gradient;
@@ -95,25 +96,31 @@ Real pressure_at(const Law& law, const Real& rho, const Real& energy, const Real
     return law.pressure(rho, energy);
 }
 
+namespace detail {
+
+template <class Law, class Real>
+[[gnu::flatten]] void trial_pressure(const Law& law, Batch<Real>& batch) {
+  using equation_of_state::Caloric;
+  for (Point<Real>& p : batch) {
+    const State<Real>& s = p.state;
+    const Real rho = p.metal_density;
+    const Real e = Law::caloric == Caloric::thermal ? law.energy(rho, s.temperature) : s.energy;
+    p.bulk_modulus = rho * equation_of_state::sound_speed_squared(law, rho, e);
+    const Real trial = law.pressure(rho, e);
+    if constexpr (Law::caloric == Caloric::incremental)
+      p.trial_pressure = p.pressure_before + trial - law.pressure(p.metal_density_before, e);
+    else
+      p.trial_pressure = trial;
+  }
+}
+
+}  // namespace detail
+
 /// Trial stress, tangent bulk modulus and trial pressure.
 template <class M, class Real>
 void elastic_trial(const M& material, Batch<Real>& batch) {
-  using equation_of_state::Caloric;
   for (Point<Real>& p : batch) p.deviator = p.deviator + 2.0 * p.state.shear_modulus * deviator(p.strain_increment);
-  visit_law(material.equation_of_state, [&](const auto& law) {
-    using Law = std::decay_t<decltype(law)>;
-    for (Point<Real>& p : batch) {
-      const State<Real>& s = p.state;
-      const Real rho = p.metal_density;
-      const Real e = Law::caloric == Caloric::thermal ? law.energy(rho, s.temperature) : s.energy;
-      p.bulk_modulus = rho * equation_of_state::sound_speed_squared(law, rho, e);
-      const Real trial = law.pressure(rho, e);
-      if constexpr (Law::caloric == Caloric::incremental)
-        p.trial_pressure = p.pressure_before + trial - law.pressure(p.metal_density_before, e);
-      else
-        p.trial_pressure = trial;
-    }
-  });
+  visit_law(material.equation_of_state, [&](const auto& law) { detail::trial_pressure(law, batch); });
 }
 
 template <class M, class Real>
@@ -136,6 +143,7 @@ Trial<Real> trial_of(const Point<Real>& p, double dt) {
               s.shear_modulus,  p.pressure_before, p.metal_density};
   trial.flow_history = s.flow_history, trial.porosity = s.porosity;
   trial.inverse_time_step = Real(1.0 / dt), trial.last_rate = s.plastic_strain_rate;
+  trial.strength = s.strength;
   return trial;
 }
 
@@ -372,9 +380,9 @@ std::array<Real, 2> flow_stress_slopes(const Law& law, const Point<Real>& p) {
   at.density = p.metal_density;
   if constexpr (flow_stress::WithHistory<Law>) {
     const Real hardening = law.hardening(at, Number(s.flow_history)).value;
-    return law(at, Number(s.flow_history, {hardening, Real(0.0)})).derivative;
+    return (Number(s.strength) * law(at, Number(s.flow_history, {hardening, Real(0.0)}))).derivative;
   } else {
-    return law(at).derivative;
+    return (Number(s.strength) * law(at)).derivative;
   }
 }
 

@@ -5,6 +5,7 @@
 //   Dual<Real, N>   value and derivatives (dual.hpp)
 // and uses only the functions declared here, found through this namespace. Branches are written with select().
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -47,6 +48,14 @@ inline double min(double a, double b) {
 }
 inline double max(double a, double b) {
   return a < b ? b : a;
+}
+/// a b + c, rounded once for doubles and lanes alike.
+template <class Real>
+Real multiply_add(const Real& a, const Real& b, const Real& c) {
+  return a * b + c;
+}
+inline double multiply_add(double a, double b, double c) {
+  return std::fma(a, b, c);
 }
 inline double abs(double a) {
   return std::fabs(a);
@@ -186,13 +195,23 @@ inline Register with_sign_of(Register sign, Register magnitude) {
   return from_bits(bits_of(magnitude) | (bits_of(sign) & sign_bit));
 }
 
-// c[0] + c[1] x + c[2] x^2 + ...
+// c[0] + c[1] x + c[2] x^2 + ..., from both halves at once (Estrin): the chain of dependent operations, which is what takes the
+// time, grows with the logarithm of the degree. powers: x, x^2, x^4, x^8.
+template <std::size_t first, std::size_t count, std::size_t size>
+Register polynomial(const Register (&powers)[4], const double (&c)[size]) {
+  if constexpr (count == 1) {
+    return broadcast(c[first]);
+  } else {
+    constexpr std::size_t half = std::bit_floor(count - 1);
+    return fma(polynomial<first + half, count - half>(powers, c), powers[std::countr_zero(half)],
+               polynomial<first, half>(powers, c));
+  }
+}
 template <std::size_t size>
 Register polynomial(Register x, const double (&c)[size]) {
-  Register sum = broadcast(c[size - 1]);
-#pragma GCC unroll 16
-  for (std::size_t i = size - 1; i > 0; --i) sum = fma(sum, x, c[i - 1]);
-  return sum;
+  static_assert(size <= 16);
+  const Register x2 = x * x, x4 = x2 * x2;
+  return polynomial<0, size>({x, x2, x4, x4 * x4}, c);
 }
 
 // ln 2 in two parts; the high one has so few bits that its product with an exponent is exact.
@@ -466,6 +485,11 @@ inline bool none(const LanesMask& m) {
   return !any(m);
 }
 
+inline Lanes multiply_add(const Lanes& a, const Lanes& b, const Lanes& c) {
+  Lanes sum;
+  for (int i = 0; i < Lanes::parts; ++i) sum.part[i] = simd::fma(a.part[i], b.part[i], c.part[i]);
+  return sum;
+}
 inline Lanes min(const Lanes& a, const Lanes& b) {
   return Lanes::map(simd::min, a, b);
 }

@@ -23,6 +23,7 @@ struct Trial {
   Real porosity;
   Real inverse_time_step;  // 1/s
   Real last_rate;          // 1/s, plastic strain rate of the previous step: where the search starts
+  Real strength{1.0};      // factor on the flow stress
 };
 
 /// Where it ends.
@@ -51,7 +52,9 @@ auto flow_stress_after(const Law& law, const Trial<Real>& trial, const Number& x
   at.shear_modulus = Number(trial.at.shear_modulus);
   at.pressure = Number(trial.at.pressure);
   at.density = Number(trial.at.density);
-  return flow_stress::evaluate(law, at, Number(trial.flow_history), x);
+  auto flow = flow_stress::evaluate(law, at, Number(trial.flow_history), x);
+  flow.flow_stress = Number(trial.strength) * flow.flow_stress;
+  return flow;
 }
 
 /// Plastic strain increments below this part of the elastic strain do not change a stress in double precision.
@@ -78,10 +81,11 @@ void replace(const mask_of<Real>& where, Returned<Real>& a, const Returned<Real>
 }
 
 /// Solves g(x) = q - 3 mu x - Y(x) = 0 on [0, q/(3 mu)] where g falls from positive to negative: Newton's method, replaced by
-/// bisection when it leaves the bracket or does not halve the residual.
+/// bisection when it leaves the bracket or does not halve the residual. A lane that is sent below
+/// `least` gives up, not converged.
 template <class Law, class Real>
 Returned<Real> return_to_matrix_stress(const Law& law, const Trial<Real>& trial, const mask_of<Real>& plastic,
-                                       const Returned<Real>& inside) {
+                                       const Returned<Real>& inside, const Real& least = Real(-1e300)) {
   using Number = Dual<Real>;
   constexpr int most_iterations = 120;
   constexpr double tolerance = 1e-10, round_off = 1e-15;  // of the flow stress; of the trial stress
@@ -91,32 +95,41 @@ Returned<Real> return_to_matrix_stress(const Law& law, const Trial<Real>& trial,
                                   (q - inside.flow_stress) / max(stiffness, Real(1e-300)));
 
   Real lo(0.0), hi = upper, x = min(first_guess, 0.999 * upper), last_residual(1e300);
-  Returned<Real> result = inside;
-  mask_of<Real> active = plastic;
+  Real end_x(0.0), end_Y = inside.flow_stress, end_history = inside.flow_history;
+  mask_of<Real> gave_up = plastic & (x < least), active = plastic & (!gave_up);
   for (int iteration = 0; iteration < most_iterations && any(active); ++iteration) {
     const auto flow = flow_stress_after(law, trial, Number::variable(x));
     const Real Y = flow.flow_stress.value;
     const Real g = q - stiffness * x - Y, slope = -stiffness - flow.flow_stress.derivative[0];
+    const Real newton = x - g / slope;
+    // The error of a Newton step goes with the square of the step: this one is taken without looking at where it ends.
+    const mask_of<Real> squares_away = abs(newton - x) <= 1e-6 * x;
     // An increment that no stress can feel, at a rate that only the logarithm in a law can tell from none, counts as elastic.
     const mask_of<Real> negligible = hi <= imperceptible * upper;
-    const mask_of<Real> done = (abs(g) <= max(tolerance * Y, round_off * q)) | (hi - lo <= 1e-15 * hi) | negligible;
+    const mask_of<Real> within = (abs(g) <= max(tolerance * Y, round_off * q)) | (hi - lo <= 1e-15 * hi) | negligible;
+    const mask_of<Real> done = within | (squares_away & (newton > lo) & (newton < hi));
     const mask_of<Real> finished = active & done & (!negligible);
-    result.equivalent_stress = select(finished, q - stiffness * x, result.equivalent_stress);
-    result.plastic_strain_increment = select(finished, x, result.plastic_strain_increment);
-    result.flow_stress = select(finished, Y, result.flow_stress);
-    result.flow_history = select(finished, flow.history.value, result.flow_history);
+    const Real last_step = select(within, Real(0.0), newton - x);
+    end_x = select(finished, x + last_step, end_x);
+    end_Y = select(finished, Y + flow.flow_stress.derivative[0] * last_step, end_Y);
+    end_history = select(finished, flow.history.value + flow.history.derivative[0] * last_step, end_history);
     active = active & (!done);
+    if (none(active)) break;
 
     const mask_of<Real> too_small = g > 0.0;
     lo = select(too_small, x, lo);
     hi = select(too_small, hi, x);
-    const Real newton = x - g / slope;
     const mask_of<Real> trusted = (newton > lo) & (newton < hi) & (abs(g) <= 0.5 * last_residual);
     last_residual = abs(g);
+    gave_up = gave_up | (active & (newton < least));
+    active = active & (!gave_up);
     x = select(active, select(trusted, newton, 0.5 * (lo + hi)), x);
   }
-  result.plastic_work = select(plastic, result.equivalent_stress * result.plastic_strain_increment, Real(0.0));
-  result.converged = !active;
+  Returned<Real> result = inside;
+  result.equivalent_stress = select(end_x > 0.0, q - stiffness * end_x, q);
+  result.plastic_strain_increment = end_x, result.plastic_work = result.equivalent_stress * end_x;
+  result.flow_stress = end_Y, result.flow_history = end_history;
+  result.converged = !(active | gave_up);
   return result;
 }
 
@@ -145,12 +158,21 @@ inline porosity::ChuNeedleman nucleation_of(const std::optional<Porosity>& poros
 }
 
 template <class Law, class Real>
-Returned<Real> return_to_surface(const yield::VonMises&, const Law& law, const porosity::ChuNeedleman&,
-                                 const Trial<Real>& trial) {
+[[gnu::flatten]] Returned<Real> return_to_surface(const yield::VonMises&, const Law& law, const porosity::ChuNeedleman&,
+                                                  const Trial<Real>& trial) {
+  // What flowed in the last step most likely flows on, and a solution with an increment far above the tolerance proves that the
+  // trial stress is outside the surface. Only the others need to know the surface itself.
+  constexpr double evident = 1e-6;
+  const Real least = evident * trial.equivalent_stress / max(3.0 * trial.shear_modulus, Real(1e-300));
+  const auto unknown = detail::elastic(trial, Real(0.0));
+  Returned<Real> result = detail::return_to_matrix_stress(law, trial, trial.last_rate > 0.0, unknown, least);
+  const mask_of<Real> others = !(result.converged & (trial.last_rate > 0.0));
+  if (none(others)) return result;
   const Real quasi_static = detail::flow_stress_after(law, trial, Real(0.0)).flow_stress;
   const auto inside = detail::elastic(trial, quasi_static);
-  const mask_of<Real> plastic = trial.equivalent_stress > quasi_static;
-  return detail::return_to_matrix_stress(law, trial, plastic, inside);
+  const mask_of<Real> plastic = others & (trial.equivalent_stress > quasi_static);
+  detail::replace(others, result, detail::return_to_matrix_stress(law, trial, plastic, inside));
+  return result;
 }
 
 namespace detail {
@@ -178,7 +200,7 @@ struct PorousReturn {
   };
 
   template <class Number>
-  Evaluation<Number> operator()(const Number& x, const Number& u) const {
+  [[gnu::flatten]] Evaluation<Number> operator()(const Number& x, const Number& u) const {
     const auto flow = flow_stress_after(law, trial, x);
     const Number Y = max(flow.flow_stress, Number(1e-30));
     const Number v = Number(sign) * u;
@@ -233,7 +255,7 @@ Returned<Real> return_to_surface(const yield::GursonTvergaardNeedleman& surface,
   const Real stiffness = 3.0 * max(trial.shear_modulus, Real(1e-300)), bulk = max(trial.bulk_modulus, Real(1e-300));
   const Real u_most = abs(mean) / bulk;
   const Real strain_scale = q / stiffness + u_most;
-  constexpr double tolerance = 1e-12, round_off = 4e-15;
+  constexpr double tolerance = 1e-12, round_off = 4e-15, uncertain = 2e-15;
 
   const auto accept = [&](const auto& where, const Real& x, const Real& u) {
     const auto at = porous(x, u);
@@ -248,13 +270,14 @@ Returned<Real> return_to_surface(const yield::GursonTvergaardNeedleman& surface,
 
   // Newton's method in both unknowns; a step that leaves the surface or does not reduce the residual is halved. It starts
   // from the strain of the previous step, where there was one, and from a mean stress of at most 0.8 of the hydrostatic
-  // limit of the surface at that strain.
+  // limit of the surface at that strain, or that of the previous step where it was beyond.
   using Number = Dual<Real, 2>;
   const Real x_before = trial.last_rate / trial.inverse_time_step;
   const Real Y = max(detail::flow_stress_after(law, trial, min(x_before, strain_scale)).flow_stress, Real(1e-30));
   const Real ratio = max((1.0 + surface.q3 * f_star * f_star) / max(2.0 * surface.q1 * f_star, Real(1e-12)), Real(1.0));
   const Real limit = 0.8 * Y * (2.0 / (3.0 * surface.q2)) * log(ratio + sqrt(ratio * ratio - 1.0));
-  const Real mean_start = min(abs(mean), limit);
+  const Real mean_before = select(trial.last_rate > 0.0, -sign * trial.at.pressure, Real(0.0));
+  const Real mean_start = min(abs(mean), max(limit, mean_before));
   Real u = (abs(mean) - mean_start) / bulk;
   const Real size_start =
       1.0 + surface.q3 * f_star * f_star - 2.0 * surface.q1 * f_star * cosh(1.5 * surface.q2 * mean_start / Y);
@@ -271,8 +294,12 @@ Returned<Real> return_to_surface(const yield::GursonTvergaardNeedleman& surface,
     const Real new_merit = abs(r1) + abs(r2);
     const mask_of<Real> valid = (at.surface_size.value > 1e-13) & (q - at.q.value >= -1e-9 * q);
     const mask_of<Real> better = valid & (new_merit < merit);
-    const mask_of<Real> done = valid & (abs(r1) <= tolerance * at.normality_size.value + round_off * strain_scale) &
-                               (abs(r2) <= tolerance * at.work_size.value + round_off * strain_scale);
+    // Near the tips of the surface q is the root of a small difference, so round-off leaves it uncertain.
+    const Real Y_now = at.Y.value, q_now = at.q.value;
+    const Real noise = uncertain * Y_now * (Y_now + 1.5 * surface.q2 * abs(at.mean.value)) / q_now;
+    const Real noise1 = (1.5 * surface.q2 / stiffness + u / Y_now) * noise, noise2 = q / (stiffness * Y_now) * noise;
+    const mask_of<Real> done = valid & (abs(r1) <= tolerance * at.normality_size.value + round_off * strain_scale + noise1) &
+                               (abs(r2) <= tolerance * at.work_size.value + round_off * strain_scale + noise2);
     const mask_of<Real> finished = active & done;
     if (any(finished)) accept(finished, x, u);
     active = active & (!done);

@@ -27,6 +27,7 @@ struct State {
   Real porosity{0.0};                                            // -
   Real damage{0.0};                                              // -
   Real shear_modulus{0.0};                                       // Pa, the one the stress was computed with
+  Real strength{1.0};                                            // -, factor on the flow stress, of this point's flaws
   Real flow_history{0.0};                                        // history variable of the flow stress, in its own unit
   Real failure_cause{0.0};                                       // FailureCause as a number: lanes hold only numbers
   Real failure_time{0.0};                                        // s

@@ -7,6 +7,12 @@
 
 namespace brisance {
 
+/// a1 b1 + a2 b2 + a3 b3
+template <class Real>
+Real dot(const Real& a1, const Real& b1, const Real& a2, const Real& b2, const Real& a3, const Real& b3) {
+  return multiply_add(a3, b3, multiply_add(a2, b2, Real(a1 * b1)));
+}
+
 /// A general second-order tensor; `xy` is row x, column y.
 template <class Real>
 struct Tensor {
@@ -53,6 +59,12 @@ template <class Real>
 SymmetricTensor<Real> operator*(const std::type_identity_t<Real>& f, const SymmetricTensor<Real>& a) {
   return {f * a.xx, f * a.yy, f * a.zz, f * a.yz, f * a.xz, f * a.xy};
 }
+/// f a + g b
+template <class Real>
+SymmetricTensor<Real> combine(const Real& f, const SymmetricTensor<Real>& a, const Real& g, const SymmetricTensor<Real>& b) {
+  const auto sum = [&](const Real& x, const Real& y) { return multiply_add(f, x, Real(g * y)); };
+  return {sum(a.xx, b.xx), sum(a.yy, b.yy), sum(a.zz, b.zz), sum(a.yz, b.yz), sum(a.xz, b.xz), sum(a.xy, b.xy)};
+}
 template <class Real>
 Real trace(const SymmetricTensor<Real>& a) {
   return a.xx + a.yy + a.zz;
@@ -70,7 +82,7 @@ SymmetricTensor<Real> deviator(const SymmetricTensor<Real>& a) {
 /// a : b
 template <class Real>
 Real double_dot(const SymmetricTensor<Real>& a, const SymmetricTensor<Real>& b) {
-  return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + 2.0 * (a.yz * b.yz + a.xz * b.xz + a.xy * b.xy);
+  return dot(a.xx, b.xx, a.yy, b.yy, a.zz, b.zz) + 2.0 * dot(a.yz, b.yz, a.xz, b.xz, a.xy, b.xy);
 }
 /// |a| = sqrt(a : a)
 template <class Real>
@@ -89,9 +101,9 @@ Real determinant(const SymmetricTensor<Real>& a) {
 /// a a, which is symmetric.
 template <class Real>
 SymmetricTensor<Real> square(const SymmetricTensor<Real>& a) {
-  return {a.xx * a.xx + a.xy * a.xy + a.xz * a.xz, a.xy * a.xy + a.yy * a.yy + a.yz * a.yz,
-          a.xz * a.xz + a.yz * a.yz + a.zz * a.zz, a.xy * a.xz + a.yy * a.yz + a.yz * a.zz,
-          a.xx * a.xz + a.xy * a.yz + a.xz * a.zz, a.xx * a.xy + a.xy * a.yy + a.xz * a.yz};
+  return {dot(a.xx, a.xx, a.xy, a.xy, a.xz, a.xz), dot(a.xy, a.xy, a.yy, a.yy, a.yz, a.yz),
+          dot(a.xz, a.xz, a.yz, a.yz, a.zz, a.zz), dot(a.xy, a.xz, a.yy, a.yz, a.yz, a.zz),
+          dot(a.xx, a.xz, a.xy, a.yz, a.xz, a.zz), dot(a.xx, a.xy, a.xy, a.yy, a.xz, a.yz)};
 }
 template <class Real>
 SymmetricTensor<Real> select(const mask_of<Real>& m, const SymmetricTensor<Real>& a, const SymmetricTensor<Real>& b) {
@@ -113,13 +125,26 @@ template <class Real>
 Tensor<Real> operator*(const std::type_identity_t<Real>& f, const Tensor<Real>& a) {
   return {f * a.xx, f * a.xy, f * a.xz, f * a.yx, f * a.yy, f * a.yz, f * a.zx, f * a.zy, f * a.zz};
 }
+/// f a + g b
+template <class Real>
+Tensor<Real> combine(const Real& f, const Tensor<Real>& a, const Real& g, const Tensor<Real>& b) {
+  const auto sum = [&](const Real& x, const Real& y) { return multiply_add(f, x, Real(g * y)); };
+  return {sum(a.xx, b.xx), sum(a.xy, b.xy), sum(a.xz, b.xz), sum(a.yx, b.yx), sum(a.yy, b.yy),
+          sum(a.yz, b.yz), sum(a.zx, b.zx), sum(a.zy, b.zy), sum(a.zz, b.zz)};
+}
+/// a + f I
+template <class Real>
+Tensor<Real> add_to_diagonal(Tensor<Real> a, const Real& f) {
+  a.xx = a.xx + f, a.yy = a.yy + f, a.zz = a.zz + f;
+  return a;
+}
 template <class Real>
 Tensor<Real> operator*(const Tensor<Real>& a, const Tensor<Real>& b) {
-  return {a.xx * b.xx + a.xy * b.yx + a.xz * b.zx, a.xx * b.xy + a.xy * b.yy + a.xz * b.zy,
-          a.xx * b.xz + a.xy * b.yz + a.xz * b.zz, a.yx * b.xx + a.yy * b.yx + a.yz * b.zx,
-          a.yx * b.xy + a.yy * b.yy + a.yz * b.zy, a.yx * b.xz + a.yy * b.yz + a.yz * b.zz,
-          a.zx * b.xx + a.zy * b.yx + a.zz * b.zx, a.zx * b.xy + a.zy * b.yy + a.zz * b.zy,
-          a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
+  return {dot(a.xx, b.xx, a.xy, b.yx, a.xz, b.zx), dot(a.xx, b.xy, a.xy, b.yy, a.xz, b.zy),
+          dot(a.xx, b.xz, a.xy, b.yz, a.xz, b.zz), dot(a.yx, b.xx, a.yy, b.yx, a.yz, b.zx),
+          dot(a.yx, b.xy, a.yy, b.yy, a.yz, b.zy), dot(a.yx, b.xz, a.yy, b.yz, a.yz, b.zz),
+          dot(a.zx, b.xx, a.zy, b.yx, a.zz, b.zx), dot(a.zx, b.xy, a.zy, b.yy, a.zz, b.zy),
+          dot(a.zx, b.xz, a.zy, b.yz, a.zz, b.zz)};
 }
 template <class Real>
 Tensor<Real> transpose(const Tensor<Real>& a) {
@@ -156,8 +181,8 @@ Tensor<Real> inverse(const Tensor<Real>& a) {
 /// a : b
 template <class Real>
 Real double_dot(const Tensor<Real>& a, const Tensor<Real>& b) {
-  return a.xx * b.xx + a.xy * b.xy + a.xz * b.xz + a.yx * b.yx + a.yy * b.yy + a.yz * b.yz + a.zx * b.zx + a.zy * b.zy +
-         a.zz * b.zz;
+  return dot(a.xx, b.xx, a.xy, b.xy, a.xz, b.xz) + dot(a.yx, b.yx, a.yy, b.yy, a.yz, b.yz) +
+         dot(a.zx, b.zx, a.zy, b.zy, a.zz, b.zz);
 }
 /// |a| = sqrt(a : a)
 template <class Real>
@@ -167,17 +192,17 @@ Real norm(const Tensor<Real>& a) {
 /// a a^T
 template <class Real>
 SymmetricTensor<Real> times_own_transpose(const Tensor<Real>& a) {
-  return {a.xx * a.xx + a.xy * a.xy + a.xz * a.xz, a.yx * a.yx + a.yy * a.yy + a.yz * a.yz,
-          a.zx * a.zx + a.zy * a.zy + a.zz * a.zz, a.yx * a.zx + a.yy * a.zy + a.yz * a.zz,
-          a.xx * a.zx + a.xy * a.zy + a.xz * a.zz, a.xx * a.yx + a.xy * a.yy + a.xz * a.yz};
+  return {dot(a.xx, a.xx, a.xy, a.xy, a.xz, a.xz), dot(a.yx, a.yx, a.yy, a.yy, a.yz, a.yz),
+          dot(a.zx, a.zx, a.zy, a.zy, a.zz, a.zz), dot(a.yx, a.zx, a.yy, a.zy, a.yz, a.zz),
+          dot(a.xx, a.zx, a.xy, a.zy, a.xz, a.zz), dot(a.xx, a.yx, a.xy, a.yy, a.xz, a.yz)};
 }
 /// R s R^T
 template <class Real>
 SymmetricTensor<Real> rotate(const Tensor<Real>& R, const SymmetricTensor<Real>& s) {
   const Tensor<Real> Rs = R * to_tensor(s);
-  return {Rs.xx * R.xx + Rs.xy * R.xy + Rs.xz * R.xz, Rs.yx * R.yx + Rs.yy * R.yy + Rs.yz * R.yz,
-          Rs.zx * R.zx + Rs.zy * R.zy + Rs.zz * R.zz, Rs.yx * R.zx + Rs.yy * R.zy + Rs.yz * R.zz,
-          Rs.xx * R.zx + Rs.xy * R.zy + Rs.xz * R.zz, Rs.xx * R.yx + Rs.xy * R.yy + Rs.xz * R.yz};
+  return {dot(Rs.xx, R.xx, Rs.xy, R.xy, Rs.xz, R.xz), dot(Rs.yx, R.yx, Rs.yy, R.yy, Rs.yz, R.yz),
+          dot(Rs.zx, R.zx, Rs.zy, R.zy, Rs.zz, R.zz), dot(Rs.yx, R.zx, Rs.yy, R.zy, Rs.yz, R.zz),
+          dot(Rs.xx, R.zx, Rs.xy, R.zy, Rs.xz, R.zz), dot(Rs.xx, R.yx, Rs.xy, R.yy, Rs.xz, R.yz)};
 }
 template <class Real>
 Tensor<Real> select(const mask_of<Real>& m, const Tensor<Real>& a, const Tensor<Real>& b) {

@@ -10,10 +10,6 @@
 namespace brisance::plots {
 namespace {
 
-using driver::Curve;
-using driver::Mark;
-using driver::Panel;
-
 /// Johnson-Cook with m = 1 softens linearly, so that heat and strength make one linear equation:
 /// theta = 1 - (1 - theta0) exp(-k (A ep + B ep^(n+1)/(n+1))), k = chi (1 + C ln(r/r0))/(rho cp (Tm - T0)).
 struct ClosedForm {

@@ -13,9 +13,6 @@ namespace brisance::plots {
 namespace {
 
 using driver::Comparison;
-using driver::Curve;
-using driver::Mark;
-using driver::Panel;
 using driver::Test;
 
 Mark mark_of(std::size_t model) {

@@ -46,7 +46,7 @@ std::vector<Row> draw(const Entry& entry, const std::filesystem::path& directory
   const auto begin = std::chrono::steady_clock::now();
   const Picture picture = entry.make();
   for (const std::string_view ending : {".png", ".svg"})
-    driver::draw(picture.figure, directory / (std::string(entry.name) + std::string(ending)));
+    draw(picture.figure, directory / (std::string(entry.name) + std::string(ending)));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   fmt::print("{} ({:.1f} s): {}\n", entry.name, seconds, (directory / entry.name).string() + ".png");
   std::vector<Row> rows;
@@ -66,7 +66,7 @@ std::string cell(const std::string& text) {
 }
 
 void write_table(const std::vector<Row>& rows, const std::filesystem::path& path) {
-  driver::replace_file(path, [&](const std::filesystem::path& temporary) {
+  replace_file(path, [&](const std::filesystem::path& temporary) {
     auto out = fmt::output_file(temporary.string());
     out.print("# What the figures of the gallery verify\n\nWritten by `./bootstrap.sh validate`.\n\n");
     out.print("| figure | quantity | reference | measured | tolerance | result |\n|---|---|---|---|---|---|\n");

@@ -21,7 +21,7 @@ struct Check {
 };
 
 struct Picture {
-  driver::Figure figure;
+  Figure figure;
   std::vector<Check> checks;
 };
 

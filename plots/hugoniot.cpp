@@ -14,9 +14,6 @@
 namespace brisance::plots {
 namespace {
 
-using driver::Curve;
-using driver::Mark;
-using driver::Panel;
 using equation_of_state::MieGruneisenEnergy;
 using equation_of_state::MieGruneisenTemperature;
 

@@ -14,9 +14,6 @@
 namespace brisance::plots {
 namespace {
 
-using driver::Curve;
-using driver::Mark;
-using driver::Panel;
 using yield::GursonTvergaardNeedleman;
 
 /// HY-100 with a rate-independent matrix of 1 GPa, voids that only grow, and the surface of its file.

@@ -10,9 +10,6 @@
 namespace brisance::plots {
 namespace {
 
-using driver::Curve;
-using driver::Mark;
-using driver::Panel;
 using S = SymmetricTensor<double>;
 
 constexpr double shear_modulus = 80e9, yield_stress = 1e9;

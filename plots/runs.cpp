@@ -89,9 +89,9 @@ Run follow(const Material& material, const LoadingPath& path) {
   return {history.record(), std::move(outcome)};
 }
 
-driver::Curve curve(std::string title, const std::vector<double>& x, const std::vector<double>& y, double x_factor,
-                    double y_factor, driver::Mark mark, int colour, std::size_t most) {
-  driver::Curve result{std::move(title), {}, {}, mark, colour};
+Curve curve(std::string title, const std::vector<double>& x, const std::vector<double>& y, double x_factor, double y_factor,
+            Mark mark, int colour, std::size_t most) {
+  Curve result{std::move(title), {}, {}, mark, colour};
   const std::size_t n = std::min(x.size(), most);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t row = n == x.size() ? i : i * (x.size() - 1) / (n - 1);

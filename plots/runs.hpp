@@ -39,8 +39,8 @@ struct Run {
 Run follow(const Material& material, const driver::LoadingPath& path);
 
 /// A curve of at most `most` of these points, times factors.
-driver::Curve curve(std::string title, const std::vector<double>& x, const std::vector<double>& y, double x_factor,
-                    double y_factor, driver::Mark mark, int colour, std::size_t most = 300);
+Curve curve(std::string title, const std::vector<double>& x, const std::vector<double>& y, double x_factor, double y_factor,
+            Mark mark, int colour, std::size_t most = 300);
 
 /// n + 1 numbers from first to last.
 std::vector<double> evenly(double first, double last, int n);

@@ -16,9 +16,6 @@
 namespace brisance::plots {
 namespace {
 
-using driver::Curve;
-using driver::Mark;
-using driver::Panel;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using S = SymmetricTensor<double>;

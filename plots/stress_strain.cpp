@@ -10,8 +10,6 @@
 namespace brisance::plots {
 namespace {
 
-using driver::Mark;
-
 struct Metal {
   std::string_view title;
   Material material;
@@ -60,8 +58,8 @@ Run compress(const Material& material, double rate, double temperature, double s
   return follow(material, path);
 }
 
-driver::Panel family(const Metal& metal, double& worst) {
-  driver::Panel panel{.title = std::string(metal.title), .x_label = "plastic strain", .y_label = "flow stress (MPa)"};
+Panel family(const Metal& metal, double& worst) {
+  Panel panel{.title = std::string(metal.title), .x_label = "plastic strain", .y_label = "flow stress (MPa)"};
   panel.x_range = {0.0, largest_strain}, panel.y_range = {0.0, 800.0};
   const auto add = [&](std::string title, double rate, double temperature, Mark mark, int colour) {
     const Run run = compress(metal.material, rate, temperature, largest_strain);
@@ -77,13 +75,13 @@ driver::Panel family(const Metal& metal, double& worst) {
   return panel;
 }
 
-driver::Panel against_rate(const std::vector<Metal>& metals) {
-  driver::Panel panel{
+Panel against_rate(const std::vector<Metal>& metals) {
+  Panel panel{
       .title = "plastic strain 0.15, isothermal at 298 K", .x_label = "strain rate (1/s)", .y_label = "flow stress (MPa)"};
   panel.logarithmic_x = true;
   panel.y_range = {0.0, 1000.0};
   for (std::size_t m = 0; m < metals.size(); ++m) {
-    driver::Curve line{std::string(metals[m].title), {}, {}, Mark::line, static_cast<int>(m)};
+    Curve line{std::string(metals[m].title), {}, {}, Mark::line, static_cast<int>(m)};
     for (double exponent = -3.0; exponent <= 8.0; exponent += 0.5) {
       driver::LoadingPath path = uniaxial_stress(-std::pow(10.0, exponent), room, 0.15);
       path.heat = driver::Heat::isothermal;

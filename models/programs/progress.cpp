@@ -1,4 +1,4 @@
-#include "driver/progress.hpp"
+#include "models/programs/progress.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <csignal>
 #include <cstdio>
 
-namespace brisance::driver {
+namespace brisance {
 namespace {
 
 volatile std::sig_atomic_t requested = 0;
@@ -20,9 +20,14 @@ void note_interrupt(int signal) {
 
 void catch_interrupts() {
   std::signal(SIGINT, note_interrupt);
+  std::signal(SIGTERM, note_interrupt);
 }
 bool interrupt_requested() {
   return requested != 0;
+}
+
+void forget_interrupt() {
+  requested = 0;
 }
 
 ProgressLine::~ProgressLine() {
@@ -39,4 +44,4 @@ void ProgressLine::show(const std::string& text) {
   std::fflush(stderr);
 }
 
-}  // namespace brisance::driver
+}  // namespace brisance

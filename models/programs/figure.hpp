@@ -1,0 +1,51 @@
+#pragma once
+// Figures: panels of curves, drawn by gnuplot as PNG or SVG.
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace brisance {
+
+/// Curves of as many colours can be told apart.
+inline constexpr std::size_t palette_size = 8;
+
+enum class Mark { line, dashed, points, squares, dots };
+
+struct Curve {
+  std::string title;  // empty: not in the legend
+  std::vector<double> x, y;
+  Mark mark = Mark::line;
+  int colour = 0;                // index into the palette
+  std::vector<double> values{};  // of points: shown by colours on a scale instead
+  double size = 0.7;             // of points
+};
+
+struct Panel {
+  std::string title{}, x_label{}, y_label{};
+  std::vector<Curve> curves{};
+  std::optional<std::array<double, 2>> x_range{}, y_range{};
+  bool logarithmic_x = false, logarithmic_y = false;
+  bool equal_axes = false;             // one unit is as long along x as along y
+  std::string scale_label{};           // of the colours of values
+  bool wide = false;                   // takes a row of its own
+  double height = 1.0;                 // of its row, in units of Figure::panel_height
+  std::string legend = "top left";     // gnuplot's words for its place
+  std::vector<std::string> x_names{};  // stand upright under x = 0, 1, 2, ...
+};
+
+struct Figure {
+  std::string title;
+  std::vector<Panel> panels;
+  int columns = 1;
+  int panel_width = 520, panel_height = 390;  // pixels
+};
+
+/// Draws a figure; the ending of the path, .png or .svg, chooses the format. Throws std::runtime_error when gnuplot does not
+/// deliver it. The file appears complete or not at all.
+void draw(const Figure& figure, const std::filesystem::path& path);
+
+}  // namespace brisance

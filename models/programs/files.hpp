@@ -1,0 +1,20 @@
+#pragma once
+// Files that appear complete or not at all.
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+namespace brisance {
+
+/// Calls write_to(temporary path), then moves the result to its name. Throws std::runtime_error, naming the file, if either
+/// fails.
+void replace_file(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write_to);
+
+/// The same, on disk before it gets its name, so that a loss of power leaves the old file or the new one.
+void replace_file_durably(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write_to);
+
+/// A text as a whole file, complete or not at all.
+void replace_file_by_text(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace brisance

@@ -1,0 +1,227 @@
+// Taylor impacts against experiment: runs the cases, writes the table and the figure of all profiles.
+//   taylor [NAME]... [--full] [--list] [-o DIR]
+// The standard set is every case at its own resolution; --full adds refinement, friction and three-dimensional quarters.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <omp.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "models/programs/figure.hpp"
+#include "models/programs/files.hpp"
+#include "simulator/case_reader.hpp"
+#include "simulator/output/measures.hpp"
+#include "simulator/output/run_directory.hpp"
+#include "simulator/run.hpp"
+#include "simulator/setup.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+/// One run: a case of data/cases, perhaps changed.
+struct Entry {
+  std::string name, label, test;  // `test` groups what is drawn in one panel
+  std::string file;
+  std::vector<std::string> changes;
+  bool full;  // not in the standard set
+};
+
+std::vector<Entry> entries() {
+  struct Test {
+    const char *id, *words, *stem;
+    bool threshold_stress;
+  };
+  // Numbers A1 to A12 as in the table of the documentation.
+  const std::vector<Test> tests{{"A1", "4340 steel, 208 m/s", "4340_208", false},
+                                {"A2", "4340 steel, 343 m/s, short", "4340_343", false},
+                                {"A3", "OFHC copper, 190 m/s", "copper_190", true},
+                                {"A4", "OFHC copper, 130 m/s", "copper_130", true},
+                                {"A5", "OFHC copper, 146 m/s", "copper_146", true},
+                                {"A6", "OFHC copper, 210 m/s", "copper_210", true},
+                                {"A7", "ETP copper, 188 m/s, 718 K", "copper_etp_188_718k", true},
+                                {"A8", "ETP copper, 277 m/s", "copper_etp_277", true},
+                                {"A9", "6061-T6, 200 m/s", "6061_t6_200", true},
+                                {"A10", "6061-T6, 194 m/s, 635 K", "6061_t6_194_635k", true},
+                                {"A11", "6061-T6, 275 m/s", "6061_t6_275", true},
+                                {"A12", "6061-T6, 373 m/s", "6061_t6_373", true}};
+  std::vector<Entry> all;
+  for (const Test& t : tests) {
+    const std::string stem = fmt::format("taylor_{}", t.stem), test = fmt::format("{}: {}", t.id, t.words);
+    all.push_back({stem + "_johnson_cook", "Johnson-Cook", test, stem + "_johnson_cook", {}, false});
+    if (t.threshold_stress) all.push_back({stem + "_mts", "threshold stress", test, stem + "_mts", {}, false});
+  }
+  const auto vary = [&](const std::string& file, const std::string& label, const std::string& suffix, const std::string& test,
+                        std::vector<std::string> changes) {
+    all.push_back({file + suffix, label, test, file, std::move(changes), true});
+  };
+  const std::string a1 = "A1: 4340 steel, 208 m/s", a3 = "A3: OFHC copper, 190 m/s";
+  const std::pair<std::string, std::string> studied[] = {
+      {"taylor_4340_208_johnson_cook", a1}, {"taylor_copper_190_johnson_cook", a3}, {"taylor_copper_190_mts", a3}};
+  for (const auto& [file, test] : studied) {
+    const std::string law = file.ends_with("mts") ? "threshold stress" : "Johnson-Cook";
+    vary(file, law + ", R/h = 6", "_r6", test, {"cell_size=0.635 mm"});
+    vary(file, law + ", R/h = 24", "_r24", test, {"cell_size=0.15875 mm"});
+    vary(file, law + ", friction 0.05", "_friction_05", test, {"boundary.0.friction=0.05"});
+    vary(file, law + ", friction 0.1", "_friction_10", test, {"boundary.0.friction=0.1"});
+  }
+  vary("taylor_4340_208_quarter", "Johnson-Cook, three dimensions", "", a1, {});
+  vary("taylor_copper_190_quarter_mts", "threshold stress, three dimensions", "", a3, {});
+  return all;
+}
+
+struct Done {
+  Entry entry;
+  Case config;
+  Summary summary;
+  std::vector<Profile> profiles;
+};
+
+const MeasuredValue* find(const Summary& s, std::string_view name) {
+  const auto at = std::find_if(s.measures.begin(), s.measures.end(), [&](const MeasuredValue& m) { return m.name == name; });
+  return at == s.measures.end() ? nullptr : &*at;
+}
+
+/// Mean of the relative errors of length, diameter and diameter at 0.2 (Johnson & Holmquist, J. Appl. Phys. 64 (1988) 3901).
+double mean_error(const Summary& s) {
+  double sum = 0.0;
+  int count = 0;
+  for (const char* name : {"final_length", "mushroom_diameter", "diameter_at_0.2"})
+    if (const MeasuredValue* m = find(s, name); m && m->deviation()) sum += std::abs(*m->deviation()), ++count;
+  return count ? sum / count : std::nan("");
+}
+
+std::string row(const Done& d) {
+  const auto cell = [&](std::string_view name) {
+    const MeasuredValue* m = find(d.summary, name);
+    return m ? fmt::format("{:.2f} ({:+.1f} %)", 1e3 * m->value, 100.0 * m->deviation().value_or(0.0)) : std::string("-");
+  };
+  const MeasuredValue* profile = find(d.summary, "profile_error");
+  const Balance& b = d.summary.books.balance;
+  const double all = d.summary.books.peak_kinetic;
+  return fmt::format(
+      "| {} | {} | {} | {} | {} | {:.1f} % | {} | {:.1f} | {:.2f} | {:+.2f} | {:+.2f} | {:+.2f} | {:.0e} | {} | {:.1f} |\n",
+      d.entry.test, d.entry.label, cell("final_length"), cell("mushroom_diameter"), cell("diameter_at_0.2"),
+      100.0 * mean_error(d.summary), profile ? fmt::format("{:.1f} %", 100.0 * profile->value) : "-",
+      100.0 * b.plastic_work / all, 100.0 * b.viscous_work / all, 100.0 * b.transfer / all, 100.0 * b.filter / all,
+      100.0 * b.stress_timing / all, b.residual / all, d.summary.particles, d.summary.wall_time);
+}
+
+std::string table(const std::vector<Done>& runs, const std::string& commit) {
+  std::string text = "# Taylor impacts against experiment\n\n";
+  text += fmt::format(
+      "Written by `./bootstrap.sh validate`; commit {}. Lengths in mm with the deviation from the measured value; D is the "
+      "mean of "
+      "the three; the profile error is relative to the initial radius. Energies in per cent of the initial kinetic energy: "
+      "plastic "
+      "work, artificial viscosity, and the numerical books (transfer, filter, stress timing); `none` is what no book accounts "
+      "for. "
+      "Wall time in seconds on {} threads.\n\n",
+      commit, omp_get_max_threads());
+  text +=
+      "| test | law | length | diameter | at 0.2 L | D | profile | plastic | viscous | transfer | filter | timing | none | "
+      "particles | wall |\n";
+  text += "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const Done& d : runs) text += row(d);
+  return text;
+}
+
+Figure figure(const std::vector<Done>& runs) {
+  Figure figure{"Taylor impacts: computed and measured profiles", {}, 4, 380, 420};
+  std::vector<std::string> tests;
+  for (const Done& d : runs)
+    if (std::find(tests.begin(), tests.end(), d.entry.test) == tests.end()) tests.push_back(d.entry.test);
+  for (const std::string& test : tests) {
+    Panel panel;
+    panel.title = test, panel.x_label = "radius, mm", panel.y_label = "height, mm", panel.legend = "top right";
+    const auto millimetres = [](std::vector<double> x) {
+      for (double& v : x) v *= 1e3;
+      return x;
+    };
+    int colour = 0;
+    for (const Done& d : runs) {
+      if (d.entry.test != test || d.profiles.empty()) continue;
+      if (panel.curves.empty())
+        for (const MeasureConfig& m : d.config.measures)
+          if (!m.profile.empty()) {
+            const MeasuredProfile p = read_profile(m.profile);
+            panel.curves.push_back({"measured", millimetres(p.radius), millimetres(p.height), Mark::points, 7});
+          }
+      panel.curves.push_back(
+          {d.entry.label, millimetres(d.profiles[0].radius), millimetres(d.profiles[0].height), Mark::line, colour++});
+    }
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+std::string commit_hash() {
+  std::string hash = "unknown";
+  if (FILE* pipe = popen("git rev-parse --short HEAD 2>/dev/null", "r")) {
+    char text[64] = {};
+    if (fgets(text, sizeof text, pipe)) hash = std::string(text).substr(0, std::string(text).find('\n'));
+    pclose(pipe);
+  }
+  return hash;
+}
+
+int run_all(const std::vector<std::string>& names, bool full, const std::filesystem::path& output) {
+  std::vector<Done> runs;
+  for (const Entry& e : entries()) {
+    const bool named = std::find(names.begin(), names.end(), e.name) != names.end();
+    if (!(named || (names.empty() && (full || !e.full)))) continue;
+    const Case c = read_case(std::filesystem::path(BRISANCE_DATA) / "cases" / (e.file + ".toml"), e.changes);
+    Simulation s = set_up(c);
+    const std::filesystem::path directory = output / "runs" / e.name;
+    prepare_directory(directory, c, true);
+    RunOptions options;
+    options.directory = directory;
+    const RunResult result = run(c, s, options);
+    fmt::print("{:44} D {:5.1f} %   {:7.1f} s{}\n", e.name, 100.0 * mean_error(result.summary), result.summary.wall_time,
+               result.ending == Ending::done ? "" : "   " + result.message);
+    std::fflush(stdout);
+    if (result.ending == Ending::interrupted) return 3;
+    if (result.ending == Ending::failed) return 1;
+    runs.push_back({e, c, result.summary, {profile_of(s, s.bodies[0], Axis::y)}});
+  }
+  if (runs.empty()) throw std::invalid_argument("taylor: no run of that name; `--list` shows all");
+  std::filesystem::create_directories(output);
+  const std::string text = table(runs, commit_hash());
+  fmt::print("\n{}", text);
+  const std::string stem = names.empty() ? (full ? "taylor_full" : "taylor") : "taylor_selected";
+  std::ofstream(output / (stem + ".md")) << text;
+  draw(figure(runs), output / (stem + ".png"));
+  fmt::print("\nfigure: {}\n", (output / (stem + ".png")).string());
+  return 0;
+}
+
+}  // namespace
+}  // namespace brisance::simulator
+
+int main(int argc, char** argv) {
+  CLI::App app{"Taylor impacts against experiment."};
+  std::vector<std::string> names;
+  bool full = false, list = false;
+  std::string output = "out/validation";
+  app.add_option("NAME", names, "runs to make; all of the standard set if none is given");
+  app.add_flag("--full", full, "refinement, friction and three dimensions as well");
+  app.add_flag("--list", list, "names of all runs");
+  app.add_option("-o,--output", output, "directory for runs, table and figure");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (list) {
+      for (const auto& e : brisance::simulator::entries())
+        fmt::print("{:46} {}, {}{}\n", e.name, e.test, e.label, e.full ? "  (full)" : "");
+      return 0;
+    }
+    return brisance::simulator::run_all(names, full, output);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+}

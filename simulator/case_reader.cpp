@@ -1,0 +1,498 @@
+#include "simulator/case_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <variant>
+
+#include "models/input/csv.hpp"
+#include "models/input/table_reader.hpp"
+#include "simulator/keys.hpp"
+#include "simulator/solid/shapes.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr std::array<std::string_view, 3> axis_names = {"x", "y", "z"};
+constexpr double round_off = 1e-9;  // in cells: positions are decimal numbers in the file
+
+std::string in_metres(double x) {
+  return fmt::format("{:.9g} m", x == 0.0 ? 0.0 : x);
+}
+
+template <class Form>
+ShapePointer make_shape(Form form) {
+  return std::make_shared<const Shape>(Shape{std::move(form)});
+}
+
+class CaseReader {
+ public:
+  Case read(TableReader& top) {
+    read_keys(top, case_);
+    if (case_.title.empty()) case_.title = top.file().stem().string();
+    if (case_.bodies.empty() && (!top.has("solid") || top.problem_count() == 0))
+      top.problem("there is no [[solid]]; a case has at least one");
+    return std::move(case_);
+  }
+
+ private:
+  std::size_t dimensions() const { return static_cast<std::size_t>(case_.dimensions()); }
+
+  template <class Config>
+  void read_keys(TableReader& in, Config& config) {
+    for_each_key<Config>([&](const auto& key) {
+      if (key.required || in.has(key.name)) read_value(in, key, config.*key.member);
+    });
+  }
+  template <class Config>
+  Config read_struct(TableReader in) {
+    Config config{};
+    read_keys(in, config);
+    return config;
+  }
+
+  // --- Values ---------------------------------------------------------------------------------------------------------
+
+  template <class K>
+  static Quantity quantity(const K& key) {
+    return {key.unit, key.interval, key.meaning};
+  }
+
+  template <class K>
+  void read_value(TableReader& in, const K& key, double& value) {
+    value = in.number(key.name, quantity(key));
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, std::optional<double>& value) {
+    value = in.number(key.name, quantity(key));
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, int& value) {
+    value = in.integer(key.name, static_cast<int>(key.interval.lower), static_cast<int>(key.interval.upper));
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, std::uint64_t& value) {
+    value = static_cast<std::uint64_t>(
+        in.integer(key.name, static_cast<int>(key.interval.lower), static_cast<int>(key.interval.upper)));
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, bool& value) {
+    value = in.flag(key.name);
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, std::string& value) {
+    value = in.text(key.name, key.meaning);
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, Path& value) {
+    const Path name = in.text(key.name, key.meaning);
+    value = (in.file().parent_path() / name).lexically_normal();
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, std::vector<std::string>& value) {
+    value = in.texts(key.name);
+  }
+  template <class K, class Enum>
+  requires std::is_enum_v<Enum>
+  void read_value(TableReader& in, const K& key, Enum& value) {
+    const std::size_t before = in.problem_count();
+    value = in.choice<Enum>(key.name);
+    if constexpr (std::is_same_v<Enum, Geometry>) geometry_known_ = in.problem_count() == before;
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, Vector& value) {
+    // Without a geometry two components are as good as three.
+    const Length length = key.components == Components::three ? exactly(3)
+                          : geometry_known_                   ? exactly(dimensions())
+                                                              : Length{2, 3};
+    const std::vector<double> numbers = in.numbers(key.name, quantity(key), length);
+    std::copy_n(numbers.begin(), std::min(numbers.size(), value.size()), value.begin());
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, Table& value) {
+    value = in.piecewise(key.name, quantity(key), "time", {Unit::s, non_negative, "times of the table"});
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, std::optional<Table>& value) {
+    read_value(in, key, value.emplace());
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, MaterialFile& value) {
+    value = resolve_material(in, key.name);
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, ShapePointer& value) {
+    value = read_shape(in, key.name, key.meaning);
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, InitialVelocity& value) {
+    if (in.is_table(key.name))
+      value = read_struct<InitialVelocity>(in.table(key.name));
+    else
+      read_value(in, key, value.translation);
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, std::optional<StrengthDistribution>& value) {
+    value = read_struct<StrengthDistribution>(in.table(key.name));
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, std::optional<InitialPorosity>& value) {
+    TableReader table = in.table(key.name);
+    read_law(table, value.emplace());
+  }
+  template <class K, class Config>
+  void read_value(TableReader& in, const K& key, std::vector<Config>& value) {
+    for (TableReader& table : in.tables(key.name)) {
+      const std::size_t before = in.problem_count();
+      if constexpr (std::is_same_v<Config, BodyConfig>) table.optional_texts("material_changes");  // read_case applied them
+      Config config{};
+      read_keys(table, config);
+      if (in.problem_count() == before && geometry_known_) check(table, config, value);
+      value.push_back(std::move(config));
+    }
+  }
+  template <class K, class Config>
+  requires(std::tuple_size_v<decltype(keys<Config>)> > 0) void read_value(TableReader& in, const K& key, Config& value) {
+    TableReader table = in.table(key.name);
+    read_keys(table, value);
+  }
+
+  template <class... Law>
+  static void read_law(TableReader& table, std::variant<Law...>& result) {
+    constexpr std::array names = {Law::name...};
+    const std::size_t before = table.problem_count();
+    const std::size_t wanted = table.choice("law", names);
+    if (table.problem_count() > before) return table.ignore_rest();  // without a law the other keys mean nothing
+    const auto read_as = [&]<class L>(L law) {
+      for_each_parameter<L>([&](const auto& row) {
+        law.*row.member = table.number(row.name, {row.unit, row.interval, row.meaning});
+      });
+      result = law;
+    };
+    std::size_t i = 0;
+    ((i++ == wanted ? read_as(Law{}) : void()), ...);
+  }
+
+  // --- Shapes ---------------------------------------------------------------------------------------------------------
+
+  ShapePointer read_shape(TableReader& above, std::string_view key, std::string_view meaning) {
+    if (above.is_table(key)) return read_shape(above.table(key, meaning));
+    above.table(key, meaning);  // says what is wrong
+    return make_shape(Box{});
+  }
+
+  ShapePointer read_shape(TableReader in) {
+    const std::vector<std::string> given = in.keys();
+    const auto none = [&] {
+      in.ignore_rest();
+      return make_shape(Box{});
+    };
+    const std::string allowed = "one of " + listed(shape_forms);
+    if (given.size() != 1) {
+      in.problem("a shape has one form, such as { box = {...} }; give " + allowed);
+      return none();
+    }
+    const std::string& form = given.front();
+    if (std::find(shape_forms.begin(), shape_forms.end(), form) == shape_forms.end()) {
+      in.problem(form, in_quotes(form) + " is no shape; it must be " + allowed + did_you_mean(form, shape_forms));
+      return none();
+    }
+    if (form == "union") return make_shape(Union{read_parts(in, "union")});
+    if (form == "intersection") return make_shape(Intersection{read_parts(in, "intersection")});
+    const std::size_t before = in.problem_count();
+    TableReader table = in.table(form);
+    if (in.problem_count() > before) return make_shape(Box{});
+    const auto check_axis = [&](const Cone& cone) {
+      if (in.problem_count() > before) return;
+      if (cone.start == cone.end) table.problem("end", "it is where the start is; a solid of revolution has a length");
+      if (case_.geometry == Geometry::axisymmetric && (cone.start[0] != 0.0 || cone.end[0] != 0.0))
+        table.problem(cone.start[0] != 0.0 ? "start" : "end", "in the axisymmetric geometry it lies on the axis; give r = 0");
+    };
+    if (form == "difference") {
+      Difference difference{read_shape(table, "from", "what is cut"), read_parts(table, "without")};
+      return make_shape(std::move(difference));
+    }
+    if (form == "box") {
+      const auto box = read_struct<Box>(table);
+      for (std::size_t k = 0; k < dimensions() && in.problem_count() == before; ++k)
+        if (!(box.lower[k] < box.upper[k]))
+          table.problem("upper", fmt::format("along {} it is {}, not above the lower corner's {}", axis_names[k],
+                                             in_metres(box.upper[k]), in_metres(box.lower[k])));
+      if (in.problem_count() == before && case_.geometry == Geometry::axisymmetric && box.lower[0] < 0.0)
+        table.problem("lower", "r = " + in_metres(box.lower[0]) + "; a radius is not negative");
+      return make_shape(box);
+    }
+    if (form == "sphere") {
+      const auto sphere = read_struct<Sphere>(table);
+      if (in.problem_count() == before && sphere.inner_radius >= sphere.radius)
+        table.problem("inner_radius", "it must be less than the radius");
+      if (in.problem_count() == before && case_.geometry == Geometry::axisymmetric && sphere.centre[0] != 0.0)
+        table.problem("centre", "in the axisymmetric geometry it lies on the axis; give r = 0");
+      return make_shape(sphere);
+    }
+    if (form == "cylinder") {
+      const auto cylinder = read_struct<Cylinder>(table);
+      const Cone cone{cylinder.start, cylinder.end, cylinder.radius, cylinder.radius};
+      check_axis(cone);
+      return make_shape(cone);
+    }
+    if (form == "tube") {
+      const auto tube = read_struct<Tube>(table);
+      const Cone cone{tube.start, tube.end, tube.radius, tube.radius, tube.inner_radius, tube.inner_radius};
+      check_axis(cone);
+      if (in.problem_count() == before && tube.inner_radius >= tube.radius)
+        table.problem("inner_radius", "it must be less than the radius");
+      return make_shape(cone);
+    }
+    const auto cone = read_struct<Cone>(table);
+    check_axis(cone);
+    if (in.problem_count() == before && cone.start_radius == 0.0 && cone.end_radius == 0.0)
+      table.problem("end_radius", "both radii are zero; one may be");
+    if (in.problem_count() == before &&
+        (cone.inner_start_radius > cone.start_radius || cone.inner_end_radius > cone.end_radius))
+      table.problem("the hole is wider than the cone");
+    return make_shape(cone);
+  }
+
+  std::vector<ShapePointer> read_parts(TableReader& in, std::string_view key) {
+    std::vector<ShapePointer> parts;
+    const std::size_t before = in.problem_count();
+    for (const TableReader& part : in.tables(key)) parts.push_back(read_shape(part));
+    if (parts.empty() && in.problem_count() == before) in.problem(key, "a list of shapes is required, with at least one");
+    return parts;
+  }
+
+  // --- What must hold beyond the single value -------------------------------------------------------------------------
+
+  template <class Config>
+  void require_own_name(TableReader& in, const Config& config, const std::vector<Config>& others) {
+    const bool taken =
+        std::any_of(others.begin(), others.end(), [&](const Config& other) { return other.name == config.name; });
+    if (taken) in.problem("name", "the name " + in_quotes(config.name) + " is given twice; give each its own");
+  }
+
+  void require_component_in_geometry(TableReader& in, Axis axis) {
+    if (static_cast<std::size_t>(axis) >= dimensions()) in.problem("axis", "there is no z in two dimensions; give x or y");
+  }
+
+  /// The body that is meant: the only one if none is named.
+  void resolve_body(TableReader& in, std::string& name, std::string_view whose) {
+    if (name.empty() && case_.bodies.size() == 1) {
+      name = case_.bodies.front().name;
+    } else if (name.empty()) {
+      in.problem(fmt::format("which body {} is of is unknown; give `body`", whose));
+    } else {
+      require_body(in, name);
+    }
+  }
+  void require_body(TableReader& in, const std::string& name) {
+    std::vector<std::string_view> names;
+    for (const BodyConfig& body : case_.bodies) names.push_back(body.name);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      in.problem("body", "there is no solid " + in_quotes(name) + "; there is " + listed(names) + did_you_mean(name, names));
+  }
+
+  void check(TableReader& in, BodyConfig& body, const std::vector<BodyConfig>& others) {
+    require_own_name(in, body, others);
+    const bool plain = std::all_of(body.name.begin(), body.name.end(), [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    });
+    if (!plain) in.problem("name", in_quotes(body.name) + ": it becomes part of file names; give letters, digits, _ and -");
+    check_extent(in, body);
+    check_velocity(in, body.velocity);
+    if (body.porosity && !body.material.material.porosity)
+      in.problem("porosity", "it would be ignored: the material has no [porosity] table");
+    if (body.strength && body.strength->weibull_modulus > 0.0 && body.strength->reference_volume == 0.0)
+      in.problem("strength", "a Weibull distribution needs the volume its median belongs to; give reference_volume");
+  }
+
+  void check_extent(TableReader& in, const BodyConfig& body) {
+    Bounds extent = bounds(*body.shape);
+    if (case_.geometry == Geometry::axisymmetric) extent.lower[0] = std::max(extent.lower[0], 0.0);
+    for (std::size_t k = 0; k < dimensions(); ++k) {
+      const double width = extent.upper[k] - extent.lower[k];
+      if (!(width > 0.0)) return in.problem("shape", "it fills nothing: its parts do not meet");
+      if (width < case_.cell_size * (1.0 - round_off))
+        return in.problem("shape", fmt::format("along {} it is {} wide, less than one cell of {}", axis_names[k],
+                                               in_metres(width), in_metres(case_.cell_size)));
+    }
+  }
+
+  void check_velocity(TableReader& in, const InitialVelocity& velocity) {
+    const Vector& spin = velocity.rotation;
+    if (case_.geometry == Geometry::plane && (spin[0] != 0.0 || spin[1] != 0.0))
+      in.problem("velocity", "in the plane geometry a body rotates about z alone");
+    if (case_.geometry == Geometry::axisymmetric && spin != Vector{})
+      in.problem("velocity", "in the axisymmetric geometry nothing rotates");
+    if (case_.geometry == Geometry::axisymmetric && velocity.translation[0] != 0.0)
+      in.problem("velocity", "in the axisymmetric geometry no body moves along r as a whole; give 0, or `radial`");
+  }
+
+  void check(TableReader& in, BoundaryConfig& boundary, const std::vector<BoundaryConfig>& others) {
+    const std::size_t axis = static_cast<std::size_t>(boundary.axis);
+    require_component_in_geometry(in, boundary.axis);
+    if (boundary.name.empty())
+      boundary.name = fmt::format("{}_{}_{}", choices<BoundaryKind>[static_cast<std::size_t>(boundary.kind)], axis_names[axis],
+                                  choices<Side>[static_cast<std::size_t>(boundary.side)]);
+    require_own_name(in, boundary, others);
+    if ((boundary.kind == BoundaryKind::velocity) != (boundary.velocity.size > 0))
+      in.problem("velocity", boundary.velocity.size > 0 ? "it would be ignored: the kind is not velocity"
+                                                        : "missing: how the boundary moves, for its kind is velocity");
+    if (boundary.kind != BoundaryKind::rigid_wall && boundary.friction > 0.0)
+      in.problem("friction", "it would be ignored: the kind is not rigid_wall");
+    if (axis >= dimensions() || !(case_.cell_size > 0.0)) return;
+    const double cells = boundary.position / case_.cell_size;
+    if (std::abs(cells - std::round(cells)) > round_off * std::max(1.0, std::abs(cells)))
+      in.problem("position",
+                 fmt::format("{} is on no plane of nodes; the nearest are {} and {}", in_metres(boundary.position),
+                             in_metres(std::floor(cells) * case_.cell_size), in_metres(std::ceil(cells) * case_.cell_size)));
+    if (boundary.velocity.size > 0) check_stroke(in, boundary);
+    for (const BodyConfig& body : case_.bodies) check_side(in, boundary, axis, body);
+  }
+
+  /// The plane of a boundary with a velocity stays where its nodes are, so what it moves must stay near.
+  void check_stroke(TableReader& in, const BoundaryConfig& boundary) {
+    constexpr int parts = 1000;
+    constexpr double most_cells = 0.5;
+    double stroke = 0.0, farthest = 0.0;
+    const double dt = case_.end_time / parts;
+    for (int i = 0; i < parts; ++i) {
+      stroke += dt * boundary.velocity((i + 0.5) * dt);
+      farthest = std::max(farthest, std::abs(stroke));
+    }
+    if (farthest > most_cells * case_.cell_size)
+      in.problem(
+          "velocity",
+          fmt::format("by the end it moves {}; the nodes it acts on stay where they are, so it may move half a cell, {}, at "
+                      "most; let the body move against a rigid_wall or a plane of symmetry instead",
+                      in_metres(farthest), in_metres(most_cells * case_.cell_size)));
+  }
+
+  /// Reports if a body reaches beyond the boundary.
+  void check_side(TableReader& in, const BoundaryConfig& boundary, std::size_t axis, const BodyConfig& body) {
+    if (!body.shape) return;
+    const bool above = boundary.side == Side::above;
+    const Bounds extent = bounds(*body.shape);
+    Bounds beyond = extent;
+    // In the axisymmetric geometry the shape reaches to negative r, where there is nothing.
+    if (case_.geometry == Geometry::axisymmetric) beyond.lower[0] = std::max(beyond.lower[0], 0.0);
+    const double least = round_off * case_.cell_size;
+    if (above)
+      beyond.upper[axis] = std::min(beyond.upper[axis], boundary.position - least);
+    else
+      beyond.lower[axis] = std::max(beyond.lower[axis], boundary.position + least);
+    if (!(beyond.lower[axis] < beyond.upper[axis])) return;
+    constexpr int samples = 24;  // the bounds of a shape that was cut may be too wide: look whether anything is there
+    if (filled_fraction(*body.shape, case_.geometry, beyond.lower, beyond.upper, samples) == 0.0) return;
+    in.problem("side", fmt::format("solid \"{}\" reaches to {} = {}, {} the boundary at {}; the bodies must be {} it",
+                                   body.name, axis_names[axis], in_metres((above ? extent.lower : extent.upper)[axis]),
+                                   above ? "below" : "above", in_metres(boundary.position), above ? "above" : "below"));
+  }
+
+  void check(TableReader& in, LoadConfig& load, const std::vector<LoadConfig>&) {
+    resolve_body(in, load.body, "the load");
+    const bool traction = load.traction != Vector{};
+    if (load.pressure.has_value() == traction)
+      in.problem(traction ? "there are a pressure and a traction; give one of the two in each [[load]]"
+                          : "nothing acts; give pressure or traction");
+    else if (load.amplitude && !traction)
+      in.problem("amplitude", "it would be ignored: it is a factor on the traction");
+  }
+
+  void check(TableReader& in, GaugeConfig& gauge, const std::vector<GaugeConfig>& others) {
+    require_own_name(in, gauge, others);
+    require_component_in_geometry(in, gauge.axis);
+    if (!gauge.body.empty()) require_body(in, gauge.body);
+    for (const std::string& field : gauge.fields)
+      if (std::find(gauge_fields.begin(), gauge_fields.end(), field) == gauge_fields.end())
+        in.problem("fields", in_quotes(field) + " cannot be recorded; it must be one of " + listed(gauge_fields) +
+                                 did_you_mean(field, gauge_fields));
+    if (gauge.kind == GaugeKind::point) {
+      if (gauge.to != Vector{}) in.problem("to", "it would be ignored: a point is where `from` says");
+    } else if (gauge.from == gauge.to) {
+      in.problem("to", "it is where `from` is; only a point has no extent");
+    }
+  }
+
+  void check(TableReader& in, MeasureConfig& measure, const std::vector<MeasureConfig>& others) {
+    resolve_body(in, measure.body, "the measure");
+    require_component_in_geometry(in, measure.axis);
+    if (measure.name.empty()) {
+      measure.name = choices<MeasureKind>[static_cast<std::size_t>(measure.kind)];
+      if (measure.kind == MeasureKind::diameter_at) measure.name += fmt::format("_{}", measure.at);
+    }
+    require_own_name(in, measure, others);
+    if ((measure.kind == MeasureKind::diameter_at) != (measure.at > 0.0))
+      in.problem("at", measure.at > 0.0 ? "it would be ignored: the kind is not diameter_at"
+                                        : "missing: where along the initial length, > 0 and up to 1");
+    if ((measure.kind == MeasureKind::profile_error) == measure.profile.empty())
+      in.problem("profile", measure.profile.empty() ? "missing: the CSV file of the measured profile"
+                                                    : "it would be ignored: the kind is not profile_error");
+    if (measure.kind == MeasureKind::profile_error && measure.measured)
+      in.problem("measured", "the error against the measured profile would be zero; remove it");
+    if (!measure.profile.empty()) {
+      try {
+        const CsvFile csv = CsvFile::load(measure.profile);
+        static_cast<void>(csv.numbers("radius", Unit::m)), static_cast<void>(csv.numbers("height", Unit::m));
+      } catch (const InputError& error) {
+        in.add_problems(error.problems());
+      }
+    }
+  }
+
+  Case case_;
+  bool geometry_known_ = true;
+};
+
+/// A change of a value of a material file that a body asks for.
+struct MaterialChange {
+  std::string material;    // path of the key that names the file: "solid.0.material"
+  std::string assignment;  // within the file: "flow_stress.A = 95 MPa"
+
+  std::string path() const { return assignment.substr(0, assignment.find_last_not_of(" =", assignment.find('=')) + 1); }
+};
+
+std::vector<MaterialChange> changes_in(const Path& file, const std::vector<std::string>& overrides) {
+  InputFile input = InputFile::load(file);
+  for (const std::string& assignment : overrides) input.set(assignment);
+  std::vector<MaterialChange> changes;
+  for (TableReader& solid : input.top().tables("solid"))
+    for (const std::string& change : solid.optional_texts("material_changes").value_or(std::vector<std::string>{}))
+      changes.push_back({solid.path_of("material"), change});
+  return changes;
+}
+
+/// A wrong change is reported like an override from the command line; the user wrote it in the file.
+void place_in_file(std::vector<Problem>& problems, const std::vector<MaterialChange>& changes, const Path& file) {
+  for (Problem& problem : problems)
+    for (const MaterialChange& change : changes)
+      if (problem.file == "--set " + change.path() || problem.file == "--set " + change.material + '.' + change.path()) {
+        problem.file = file.string();
+        problem.key = change.material + "_changes: " + change.path();
+      }
+}
+
+}  // namespace
+
+Case read_case(const Path& file, const std::vector<std::string>& overrides) {
+  const std::vector<MaterialChange> changes = changes_in(file, overrides);
+  InputFile input = InputFile::load(file);
+  for (const MaterialChange& change : changes) input.set(change.material + '.' + change.assignment);
+  for (const std::string& assignment : overrides) input.set(assignment);
+  TableReader top = input.top();
+  Case result = CaseReader().read(top);
+  result.file = file;
+  std::vector<Problem> problems = input.problems();
+  place_in_file(problems, changes, file);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return result;
+}
+
+}  // namespace brisance::simulator

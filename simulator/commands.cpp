@@ -1,0 +1,206 @@
+#include "simulator/commands.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "models/input/diagnostics.hpp"
+#include "models/programs/progress.hpp"
+#include "simulator/case_reader.hpp"
+#include "simulator/dry_run.hpp"
+#include "simulator/keys.hpp"
+#include "simulator/output/fields.hpp"
+#include "simulator/output/run_directory.hpp"
+#include "simulator/run.hpp"
+#include "simulator/setup.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+using Path = std::filesystem::path;
+
+struct Options {
+  Path file, directory;
+  std::vector<std::string> overrides;
+  int threads = 0;  // 0: as OpenMP chooses
+  bool overwrite = false;
+  std::optional<double> until;
+  std::string key;
+};
+
+void use_threads(int threads) {
+  if (threads > 0) omp_set_num_threads(threads);
+}
+
+int tell(const RunResult& result, const Path& directory) {
+  fmt::print("{}  files: {}\n", in_words(result.summary), directory.string());
+  switch (result.ending) {
+    case Ending::failed:
+      std::fflush(stdout);
+      fmt::print(stderr, "{}\n", result.message);
+      return failed_while_running;
+    case Ending::interrupted:
+      std::fflush(stdout);
+      fmt::print(stderr, "interrupted; go on with: brisance resume {}\n", directory.string());
+      return interrupted;
+    default:
+      return done;
+  }
+}
+
+/// A simulation from a case. What a shape makes impossible is as bad as a wrong word in the file.
+Simulation set_up_or_refuse(const Case& c) {
+  try {
+    return set_up(c);
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", c.file.string(), error.what()));
+  }
+}
+
+int run_case(const Options& o) {
+  use_threads(o.threads);
+  const Case c = read_case(o.file, o.overrides);
+  const Path directory = o.directory.empty() ? Path(o.file.stem().string() + "_run") : o.directory;
+  Simulation s = set_up_or_refuse(c);
+  prepare_directory(directory, c, o.overwrite);
+  catch_interrupts();
+  return tell(run(c, s, {directory, std::nullopt}), directory);
+}
+
+Case case_of_run(const Path& directory) {
+  if (!std::filesystem::exists(directory / "case.toml"))
+    throw std::invalid_argument(fmt::format("{}: is no run: it holds no case.toml", directory.string()));
+  return read_case(directory / "case.toml");
+}
+
+int resume_run(const Options& o) {
+  use_threads(o.threads);
+  const Case c = case_of_run(o.directory);
+  Simulation s = set_up_or_refuse(c);
+  catch_interrupts();
+  return tell(resume(c, s, {o.directory, o.until}), o.directory);
+}
+
+int report_run(const Options& o) {
+  const Case c = case_of_run(o.directory);
+  Simulation s = set_up_or_refuse(c);
+  fmt::print("{}", in_words(report(c, s, o.directory)));
+  return done;
+}
+
+int check_case(const Options& o) {
+  use_threads(o.threads);
+  const Case c = read_case(o.file, o.overrides);
+  Simulation s = set_up_or_refuse(c);
+  const DryRun dry = dry_run(c, s);
+  fmt::print("{}\n", c.title);
+  for (const auto& [body, particles] : dry.particles) fmt::print("  {:24} {} particles\n", body, particles);
+  fmt::print("  {:24} {:.1f} MB\n  {:24} {:.4g} s, limited by {}\n", "memory", dry.megabytes, "time step", dry.first_step,
+             "the initial state");
+  fmt::print("  {:24} {:.3g}\n  {:24} {:.0f} ns per particle and step, measured now with {} threads\n", "steps, about",
+             dry.steps, "speed", dry.nanoseconds, omp_get_max_threads());
+  fmt::print("  {:24} {}\n", "time on the clock, about",
+             dry.hours < 0.1 ? fmt::format("{:.1f} s", 3600.0 * dry.hours) : fmt::format("{:.2f} h", dry.hours));
+  for (const std::string& warning : dry.warnings) fmt::print("  warning: {}\n", warning);
+  return done;
+}
+
+int list() {
+  const auto row = [](std::string_view title, auto&& names) { fmt::print("{}\n  {}\n", title, fmt::join(names, ", ")); };
+  row("geometries", choices<Geometry>), row("shapes", shape_forms), row("boundaries", choices<BoundaryKind>);
+  row("gauges", choices<GaugeKind>), row("fields of gauges", gauge_fields), row("measures", choices<MeasureKind>);
+  row("basis functions", choices<Basis>), row("stress timings", choices<StressTiming>),
+      row("particle velocities", choices<ParticleVelocity>);
+  std::vector<std::string> materials;
+  for (const Path& directory : {Path(BRISANCE_MATERIALS_SOURCE), Path(BRISANCE_MATERIALS_INSTALLED)}) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(directory, none))
+      if (entry.path().extension() == ".toml") materials.push_back(entry.path().filename().string());
+  }
+  std::sort(materials.begin(), materials.end());
+  materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
+  row("materials that come with the program", materials);
+  fmt::print("`brisance describe KEY` explains a key of a case file, `pointdriver list` the laws of materials\n");
+  return done;
+}
+
+int describe_keys(const std::string& key) {
+  std::string suggestion;
+  const std::vector<KeyDescription> found = describe_key(key, suggestion);
+  if (found.empty()) {
+    fmt::print(stderr, "describe: \"{}\" is no key of a case file{}\n", key, suggestion);
+    return bad_input;
+  }
+  for (const KeyDescription& k : found) {
+    fmt::print("{}\n  {}\n  values: {}\n", k.path, k.meaning, k.values);
+    if (k.default_value == "required")
+      fmt::print("  must be given\n");
+    else if (!k.default_value.empty())
+      fmt::print("  default: {}\n", k.default_value);
+  }
+  return done;
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app{"Deformation, heating and failure of metal bodies under impact."};
+  app.name("brisance");
+  app.require_subcommand(1);
+  int code = done;
+  Options o;
+  const auto add_threads = [&](CLI::App* command) {
+    command->add_option("--threads", o.threads, "threads; the results do not depend on it")->check(CLI::Range(1, 4096));
+  };
+  const auto add_case = [&](CLI::App* command) {
+    command->add_option("CASE", o.file, "case file (TOML)")->required();
+    command->add_option("--set", o.overrides, "replace a value: key.0.key=value")->allow_extra_args(false);
+    add_threads(command);
+  };
+
+  CLI::App* run_command = app.add_subcommand("run", "Simulate a case");
+  add_case(run_command);
+  run_command->add_option("-o,--output", o.directory, "directory of the run (default: CASE_run)");
+  run_command->add_flag("--overwrite", o.overwrite, "replace a run of another case in that directory");
+  run_command->callback([&] { code = run_case(o); });
+
+  CLI::App* check_command = app.add_subcommand("check", "What a case would take, and what looks wrong with it");
+  add_case(check_command);
+  check_command->callback([&] { code = check_case(o); });
+
+  CLI::App* resume_command = app.add_subcommand("resume", "Go on with a run from its last checkpoint");
+  resume_command->add_option("DIR", o.directory, "directory of the run")->required();
+  resume_command->add_option("--until", o.until, "simulated time (s) at which to end, instead of the case's");
+  add_threads(resume_command);
+  resume_command->callback([&] { code = resume_run(o); });
+
+  CLI::App* report_command = app.add_subcommand("report", "Measures and energies of a run; draws its figures again");
+  report_command->add_option("DIR", o.directory, "directory of the run")->required();
+  report_command->callback([&] { code = report_run(o); });
+
+  app.add_subcommand("list", "Materials, shapes, boundaries, gauges and measures")->callback([&] { code = list(); });
+
+  CLI::App* describe_command = app.add_subcommand("describe", "What a key of a case file means");
+  describe_command->add_option("KEY", o.key, "path or last name of a key, or a table")->required();
+  describe_command->callback([&] { code = describe_keys(o.key); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : bad_input;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return bad_input;
+  } catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return failed_while_running;
+  }
+  return code;
+}
+
+}  // namespace brisance::simulator

@@ -1,0 +1,229 @@
+#pragma once
+// A run as its input file states it, in plain structs and SI units. Written by case_reader, read by setup and run.
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "models/input/material_reader.hpp"
+#include "models/parameters.hpp"
+
+namespace brisance::simulator {
+
+/// A place or a direction: x, y, z. In the axisymmetric geometry x is the radius r and y is z; in the plane z is unused.
+using Vector = std::array<double, 3>;
+
+enum class Geometry { plane, axisymmetric, three_dimensional };
+enum class Basis { quadratic_spline, ugimp };
+/// When the stress is updated within the step: from the velocities mapped back after the particles have moved (musl), from the
+/// new grid velocities (usl), or from the grid velocities before the forces act (usf).
+enum class StressTiming { musl, usl, usf };
+enum class ParticleVelocity { flip, aflip };
+enum class Axis { x, y, z };
+/// The side of a boundary plane on which the bodies are.
+enum class Side { above, below };
+enum class BoundaryKind { symmetry, fixed, velocity, rigid_wall, outflow };
+
+// Shapes: what a body fills ------------------------------------------------------------------------------------------
+
+struct Shape;
+using ShapePointer = std::shared_ptr<const Shape>;
+
+struct Box {
+  Vector lower, upper;
+};
+/// Solid of revolution about the line from `start` to `end`; the radii are at the ends. A cylinder has both alike, a tube has
+/// inner radii as well. In the axisymmetric geometry the line lies on the axis; in the plane a disk is a `Sphere`.
+struct Cone {
+  Vector start, end;
+  double start_radius, end_radius;
+  double inner_start_radius = 0.0, inner_end_radius = 0.0;
+};
+struct Sphere {
+  Vector centre;
+  double radius;
+  double inner_radius = 0.0;
+};
+struct Union {
+  std::vector<ShapePointer> parts;
+};
+struct Intersection {
+  std::vector<ShapePointer> parts;
+};
+struct Difference {
+  ShapePointer from;
+  std::vector<ShapePointer> without;
+};
+struct Shape {
+  std::variant<Box, Cone, Sphere, Union, Intersection, Difference> form;
+};
+
+// Bodies -------------------------------------------------------------------------------------------------------------
+
+/// Velocity at a point x: translation + rotation x (x - centre) + radial (direction away from the centre, or from the axis).
+struct InitialVelocity {
+  Vector translation{};
+  Vector rotation{};  // rad/s
+  Vector centre{};
+  double radial = 0.0;       // m/s, of the unit vector away from the centre (2-D and 3-D) or from the axis (axisymmetric)
+  double radial_rate = 0.0;  // 1/s, velocity per distance from the centre or axis
+};
+
+/// A factor on the strength of each particle: constant, or Weibull by weakest link with the size effect of its volume.
+struct StrengthDistribution {
+  double median = 1.0;            // of the factor at the reference volume
+  double weibull_modulus = 0.0;   // 0: the same everywhere
+  double reference_volume = 0.0;  // m^3
+};
+
+struct BodyConfig {
+  std::string name;
+  MaterialFile material;
+  ShapePointer shape;
+  int particles_per_direction = 2;
+  InitialVelocity velocity;
+  double temperature = 0.0;                 // K
+  std::optional<InitialPorosity> porosity;  // instead of the material's
+  std::optional<StrengthDistribution> strength;
+  bool locking_cure = true;  // averaging of the volume change over each cell; only where the material flows plastically
+};
+
+// Boundaries and loads -----------------------------------------------------------------------------------------------
+
+/// A plane across an axis. Nothing passes it but through an outflow.
+struct BoundaryConfig {
+  std::string name;
+  BoundaryKind kind = BoundaryKind::symmetry;
+  Axis axis = Axis::x;
+  double position = 0.0;  // m, on a plane of nodes
+  Side side = Side::above;
+  Table velocity;         // m/s against s, normal to the plane: kind velocity
+  double friction = 0.0;  // Coulomb's coefficient: kind rigid_wall
+};
+
+/// Pressure or traction on the part of a body's surface that lies in a region and faces a direction.
+struct LoadConfig {
+  std::string body;
+  ShapePointer region;             // absent: the whole surface
+  std::optional<Table> pressure;   // Pa against s
+  Vector traction{};               // Pa
+  std::optional<Table> amplitude;  // of the traction, against s
+};
+
+// Observation --------------------------------------------------------------------------------------------------------
+
+enum class GaugeKind { point, line, plane, surface };
+struct GaugeConfig {
+  std::string name;
+  GaugeKind kind = GaugeKind::point;
+  bool moves = true;        // with the material, or fixed in space
+  std::string body;         // empty: any
+  Vector from{}, to{};      // a point is `from`; a line runs from one to the other; a plane is the box between them
+  Axis axis = Axis::x;      // normal of a plane; direction in which a surface is sought
+  Side side = Side::above;  // which surface along that axis
+  std::vector<std::string> fields;
+};
+
+enum class MeasureKind {
+  final_length,       // extent of the body along the axis
+  mushroom_diameter,  // largest diameter
+  diameter_at,        // diameter at a distance from the impact face, given as a part of the initial length
+  undeformed_length,  // from the rear face to where the radius exceeds the initial one by a tolerance
+  profile_error       // mean of |computed - measured radius|, over the initial radius
+};
+struct MeasureConfig {
+  std::string name;  // under which it stands in summary.json
+  MeasureKind kind = MeasureKind::final_length;
+  std::string body;
+  Axis axis = Axis::y;
+  double at = 0.0;                 // see kind
+  std::optional<double> measured;  // by experiment, SI
+  std::filesystem::path profile;   // CSV of an experiment's profile
+};
+
+struct OutputConfig {
+  double history_interval = 0.0;     // s; 0: 500 rows over the run
+  double snapshot_interval = 0.0;    // s; 0: none but the last
+  double checkpoint_interval = 0.0;  // s of simulated time; 0: none
+  int checkpoint_steps = 0;          // steps; 0: none
+  double checkpoint_wall = 600.0;    // s of wall time
+  std::string figure_field = "plastic_strain";
+  bool figures = true;
+};
+
+/// Limits on the books; a run that exceeds one stops with a report.
+struct GateConfig {
+  double residual = 1e-10;   // energy, momentum and angular momentum in no bin, part of the peak
+  double numerical = 1e300;  // sum of the numerical bins over the peak kinetic energy
+  double fastest = 1e300;    // m/s: no particle is faster
+};
+
+struct NumericsConfig {
+  Basis basis = Basis::quadratic_spline;
+  StressTiming stress_timing = StressTiming::musl;
+  ParticleVelocity particle_velocity = ParticleVelocity::aflip;
+  double filter_time = 30.0;        // of AFLIP, in cell size over sound speed
+  double courant = 0.0;             // 0: 0.4 in three dimensions, 0.5 in two; 0.3 with usl
+  double most_volume_change = 0.1;  // per step
+  double growth = 1.1;              // of the step, per step
+  double first_step = 0.0;          // s; 0: from the initial state
+  double least_step = 0.0;          // s; a smaller one stops the run
+  double trimming = 0.05;           // sub-cells filled less than this get no particle
+  std::uint64_t seed = 1;
+};
+
+struct Case {
+  std::string title;
+  std::filesystem::path file;
+  Geometry geometry = Geometry::three_dimensional;
+  double cell_size = 0.0;  // m
+  double end_time = 0.0;   // s
+  Vector gravity{};        // m/s^2
+  NumericsConfig numerics;
+  std::vector<BodyConfig> bodies;
+  std::vector<BoundaryConfig> boundaries;
+  std::vector<LoadConfig> loads;
+  std::vector<GaugeConfig> gauges;
+  std::vector<MeasureConfig> measures;
+  OutputConfig output;
+  GateConfig gates;
+
+  int dimensions() const { return geometry == Geometry::three_dimensional ? 3 : 2; }
+};
+
+}  // namespace brisance::simulator
+
+namespace brisance {
+
+template <>
+inline constexpr std::array choices<simulator::Geometry> = {std::string_view{"plane"}, std::string_view{"axisymmetric"},
+                                                            std::string_view{"three_dimensional"}};
+template <>
+inline constexpr std::array choices<simulator::Basis> = {std::string_view{"quadratic_spline"}, std::string_view{"ugimp"}};
+template <>
+inline constexpr std::array choices<simulator::StressTiming> = {std::string_view{"musl"}, std::string_view{"usl"},
+                                                                std::string_view{"usf"}};
+template <>
+inline constexpr std::array choices<simulator::ParticleVelocity> = {std::string_view{"flip"}, std::string_view{"aflip"}};
+template <>
+inline constexpr std::array choices<simulator::Axis> = {std::string_view{"x"}, std::string_view{"y"}, std::string_view{"z"}};
+template <>
+inline constexpr std::array choices<simulator::Side> = {std::string_view{"above"}, std::string_view{"below"}};
+template <>
+inline constexpr std::array choices<simulator::BoundaryKind> = {std::string_view{"symmetry"}, std::string_view{"fixed"},
+                                                                std::string_view{"velocity"}, std::string_view{"rigid_wall"},
+                                                                std::string_view{"outflow"}};
+template <>
+inline constexpr std::array choices<simulator::GaugeKind> = {std::string_view{"point"}, std::string_view{"line"},
+                                                             std::string_view{"plane"}, std::string_view{"surface"}};
+template <>
+inline constexpr std::array choices<simulator::MeasureKind> = {
+    std::string_view{"final_length"}, std::string_view{"mushroom_diameter"}, std::string_view{"diameter_at"},
+    std::string_view{"undeformed_length"}, std::string_view{"profile_error"}};
+
+}  // namespace brisance

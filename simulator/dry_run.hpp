@@ -1,0 +1,26 @@
+#pragma once
+// What a run would take, and what looks wrong with it, before it is begun.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "simulator/simulation.hpp"
+
+namespace brisance::simulator {
+
+struct DryRun {
+  std::vector<std::pair<std::string, std::int64_t>> particles;  // by body
+  double megabytes = 0.0;
+  double first_step = 0.0;   // s
+  double steps = 0.0;        // if the steps stay as the first one
+  double nanoseconds = 0.0;  // per particle and step, of a few steps taken
+  double hours = 0.0;
+  std::vector<std::string> warnings;
+};
+
+/// Takes a few steps with a simulation that has been set up from the case.
+DryRun dry_run(const Case& c, Simulation& s);
+
+}  // namespace brisance::simulator

@@ -1,0 +1,44 @@
+#pragma once
+// Planes of nodes that bound the bodies. Nodes one cell beyond a plane are ghosts: what particles add to them is folded onto
+// the nodes inside, and what particles read from them is made from the nodes inside, by the transposed rule.
+
+#include <string>
+
+#include "models/parameters.hpp"
+#include "simulator/config.hpp"
+#include "simulator/grid/grid.hpp"
+#include "simulator/ledger.hpp"
+
+namespace brisance::simulator {
+
+struct Boundary {
+  std::string name;
+  BoundaryKind kind = BoundaryKind::symmetry;
+  int axis = 0;
+  int node = 0;           // index of the plane
+  int inward = 1;         // +1: the bodies are above
+  double position = 0.0;  // m
+  double friction = 0.0;
+  Table velocity;  // m/s against s, along the axis
+
+  /// A mirror continues even and odd fields; other planes continue the values linearly, which makes the weights of the plane
+  /// interpolate.
+  bool is_mirror() const { return kind == BoundaryKind::symmetry; }
+  bool has_ghosts() const { return kind != BoundaryKind::outflow; }
+};
+
+/// Folds the ghosts of a tile onto its nodes: what was added to them is added inside.
+template <int D>
+void fold(const std::vector<Boundary>& boundaries, BlockKey block, Lanes* tile);
+/// Gives the ghosts of a tile the velocities that continue those inside.
+template <int D>
+void unfold(const std::vector<Boundary>& boundaries, BlockKey block, Lanes* tile);
+
+/// Whether a plane runs through the nodes of a block, and where: its local index along the axis, or -1.
+template <int D>
+int local_plane(const Boundary& boundary, BlockKey block);
+
+/// The velocity of a node on the plane as the boundary wants it.
+Vector bounded(const Boundary& boundary, Vector velocity, bool touched, double time);
+
+}  // namespace brisance::simulator

@@ -1,0 +1,263 @@
+#pragma once
+// The keys of a case file: one table per struct of config.hpp, from which the file is read, written and described.
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "simulator/config.hpp"
+
+namespace brisance::simulator {
+
+/// How many components a Vector has in the file: those of the geometry, or always three.
+enum class Components { of_geometry, three };
+
+/// One key. If it may be left out, its default is what the member is in a new struct.
+template <class Config, class T>
+struct Key {
+  std::string_view name;
+  T Config::*member;
+  Unit unit;
+  std::string_view meaning;
+  Interval interval = any_value;
+  bool required = false;
+  Components components = Components::of_geometry;
+};
+inline constexpr bool required = true;
+
+/// Specialised for each struct that stands in a case file.
+template <class Config>
+inline constexpr std::tuple<> keys{};
+
+template <class Config, class F>
+constexpr void for_each_key(F&& f) {
+  std::apply([&](const auto&... key) { (f(key), ...); }, keys<Config>);
+}
+
+/// What a gauge may record.
+inline constexpr std::array<std::string_view, 17> gauge_fields = {
+    "position",  "velocity",  "stress_xx", "stress_yy",   "stress_zz",      "stress_yz",
+    "stress_xz", "stress_xy", "pressure",  "temperature", "plastic_strain", "plastic_strain_rate",
+    "porosity",  "damage",    "energy",    "density",     "failure_cause"};
+
+// Shapes: { <form> = {...} } ---------------------------------------------------------------------------------------------
+
+/// Forms of the file that become a Cone.
+struct Cylinder {
+  Vector start, end;
+  double radius;
+};
+struct Tube {
+  Vector start, end;
+  double radius, inner_radius;
+};
+/// In the order of the alternatives that read_shape knows.
+inline constexpr std::array<std::string_view, 8> shape_forms = {"box",  "cylinder", "cone",         "sphere",
+                                                                "tube", "union",    "intersection", "difference"};
+
+constexpr Unit m_per_s2{"m/s^2"};
+
+template <>
+inline constexpr auto keys<Box> =
+    std::tuple{Key{"lower", &Box::lower, Unit::m, "corner with the smallest coordinates", any_value, required},
+               Key{"upper", &Box::upper, Unit::m, "corner with the largest coordinates", any_value, required}};
+
+template <>
+inline constexpr auto keys<Cylinder> =
+    std::tuple{Key{"start", &Cylinder::start, Unit::m, "middle of one end", any_value, required},
+               Key{"end", &Cylinder::end, Unit::m, "middle of the other end", any_value, required},
+               Key{"radius", &Cylinder::radius, Unit::m, "radius", positive, required}};
+
+template <>
+inline constexpr auto keys<Tube> =
+    std::tuple{Key{"start", &Tube::start, Unit::m, "middle of one end", any_value, required},
+               Key{"end", &Tube::end, Unit::m, "middle of the other end", any_value, required},
+               Key{"radius", &Tube::radius, Unit::m, "outer radius", positive, required},
+               Key{"inner_radius", &Tube::inner_radius, Unit::m, "inner radius", positive, required}};
+
+template <>
+inline constexpr auto keys<Cone> =
+    std::tuple{Key{"start", &Cone::start, Unit::m, "middle of one end", any_value, required},
+               Key{"end", &Cone::end, Unit::m, "middle of the other end", any_value, required},
+               Key{"start_radius", &Cone::start_radius, Unit::m, "radius at the start", non_negative, required},
+               Key{"end_radius", &Cone::end_radius, Unit::m, "radius at the end", non_negative, required},
+               Key{"inner_start_radius", &Cone::inner_start_radius, Unit::m, "radius of the hole at the start", non_negative},
+               Key{"inner_end_radius", &Cone::inner_end_radius, Unit::m, "radius of the hole at the end", non_negative}};
+
+template <>
+inline constexpr auto keys<Sphere> =
+    std::tuple{Key{"centre", &Sphere::centre, Unit::m, "centre; in the plane geometry that of a disk", any_value, required},
+               Key{"radius", &Sphere::radius, Unit::m, "radius", positive, required},
+               Key{"inner_radius", &Sphere::inner_radius, Unit::m, "radius of the hollow", non_negative}};
+
+// Bodies: [[solid]] ------------------------------------------------------------------------------------------------------
+
+template <>
+inline constexpr auto keys<InitialVelocity> = std::tuple{
+    Key{"translation", &InitialVelocity::translation, Unit::m_per_s, "velocity of the whole body"},
+    Key{"rotation", &InitialVelocity::rotation, Unit::per_s, "angular velocity about x, y and z, in rad/s", any_value, false,
+        Components::three},
+    Key{"centre", &InitialVelocity::centre, Unit::m, "a point that the rotation and the radial velocity leave at rest"},
+    Key{"radial", &InitialVelocity::radial, Unit::m_per_s, "away from the centre, or from the axis of symmetry"},
+    Key{"radial_rate", &InitialVelocity::radial_rate, Unit::per_s, "radial velocity per distance"}};
+
+template <>
+inline constexpr auto keys<StrengthDistribution> = std::tuple{
+    Key{"median", &StrengthDistribution::median, Unit::one, "factor on the strength, median in the reference volume", positive},
+    Key{"weibull_modulus", &StrengthDistribution::weibull_modulus, Unit::one,
+        "the smaller, the more the factor varies from particle to particle; 0: not at all", non_negative},
+    Key{"reference_volume", &StrengthDistribution::reference_volume, Unit{"m^3"}, "volume that the median belongs to",
+        non_negative}};
+
+template <>
+inline constexpr auto keys<BodyConfig> = std::tuple{
+    Key{"name", &BodyConfig::name, Unit::one, "what the body is called here and in output", any_value, required},
+    Key{"shape", &BodyConfig::shape, Unit::one, "what it fills", any_value, required},
+    Key{"temperature", &BodyConfig::temperature, Unit::K, "initial temperature", positive, required},
+    Key{"velocity", &BodyConfig::velocity, Unit::m_per_s, "initial velocity: components, or a table"},
+    Key{"particles_per_direction", &BodyConfig::particles_per_direction, Unit::one, "particles in a cell along each direction",
+        between(1, 8)},
+    Key{"porosity", &BodyConfig::porosity, Unit::one, "initial porosity instead of the material's: a table with its law"},
+    Key{"strength", &BodyConfig::strength, Unit::one, "factor on the strength of each particle"},
+    Key{"locking_cure", &BodyConfig::locking_cure, Unit::one,
+        "averages the volume change over each cell where the material flows plastically"},
+    Key{"material", &BodyConfig::material, Unit::one, "name of a material file, or the material itself", any_value, required}};
+
+// Boundaries and loads: [[boundary]], [[load]] ---------------------------------------------------------------------------
+
+template <>
+inline constexpr auto keys<BoundaryConfig> = std::tuple{
+    Key{"kind", &BoundaryConfig::kind, Unit::one,
+        "symmetry: nothing passes; fixed: sticks; velocity: gives the nodes of its plane a velocity, for strokes of up to half "
+        "a cell; rigid_wall: bodies may leave it and slide; "
+        "outflow: bodies leave through it",
+        any_value, required},
+    Key{"axis", &BoundaryConfig::axis, Unit::one, "axis that the plane is normal to", any_value, required},
+    Key{"position", &BoundaryConfig::position, Unit::m, "coordinate of the plane, a multiple of cell_size", any_value,
+        required},
+    Key{"side", &BoundaryConfig::side, Unit::one, "where the bodies are", any_value, required},
+    Key{"name", &BoundaryConfig::name, Unit::one, "what it is called in output; from kind, axis and side if not given"},
+    Key{"velocity", &BoundaryConfig::velocity, Unit::m_per_s, "velocity along the axis, of kind velocity; a table over time"},
+    Key{"friction", &BoundaryConfig::friction, Unit::one, "Coulomb's coefficient, of kind rigid_wall", non_negative}};
+
+template <>
+inline constexpr auto keys<LoadConfig> = std::tuple{
+    Key{"body", &LoadConfig::body, Unit::one, "the body it acts on; the only one if not given"},
+    Key{"region", &LoadConfig::region, Unit::one, "part of the surface that lies in this shape; all of it if not given"},
+    Key{"pressure", &LoadConfig::pressure, Unit::Pa, "pressure; a table over time"},
+    Key{"traction", &LoadConfig::traction, Unit::Pa, "force per area of the undeformed surface"},
+    Key{"amplitude", &LoadConfig::amplitude, Unit::one, "factor on the traction; a table over time"}};
+
+// Observation: [[gauge]], [[measure]], [output], [gates] -----------------------------------------------------------------
+
+template <>
+inline constexpr auto keys<GaugeConfig> = std::tuple{
+    Key{"name", &GaugeConfig::name, Unit::one, "what it is called in output", any_value, required},
+    Key{"kind", &GaugeConfig::kind, Unit::one, "point, line from one point to another, plane, or surface", any_value, required},
+    Key{"fields", &GaugeConfig::fields, Unit::one, "what it records", any_value, required},
+    Key{"from", &GaugeConfig::from, Unit::m, "the point; first end of the line; lower corner", any_value, required},
+    Key{"to", &GaugeConfig::to, Unit::m, "last end of the line; upper corner"},
+    Key{"moves", &GaugeConfig::moves, Unit::one, "with the material; or fixed in space"},
+    Key{"body", &GaugeConfig::body, Unit::one, "the body it watches; any if not given"},
+    Key{"axis", &GaugeConfig::axis, Unit::one, "normal of a plane; direction in which a surface is sought"},
+    Key{"side", &GaugeConfig::side, Unit::one, "which surface along that axis"}};
+
+template <>
+inline constexpr auto keys<MeasureConfig> =
+    std::tuple{Key{"kind", &MeasureConfig::kind, Unit::one,
+                   "final_length, mushroom_diameter, diameter_at (a part of the initial length from the impact face), "
+                   "undeformed_length, or "
+                   "profile_error",
+                   any_value, required},
+               Key{"name", &MeasureConfig::name, Unit::one, "under which it stands in summary.json; the kind if not given"},
+               Key{"body", &MeasureConfig::body, Unit::one, "the body it is of; the only one if not given"},
+               Key{"axis", &MeasureConfig::axis, Unit::one, "axis of the body; the impact face is at its lower end"},
+               Key{"at", &MeasureConfig::at, Unit::one,
+                   "distance from the impact face over the initial length, of kind diameter_at", fraction},
+               Key{"measured", &MeasureConfig::measured, Unit::m, "what an experiment gave", positive},
+               Key{"profile", &MeasureConfig::profile, Unit::one,
+                   "measured profile: CSV with columns radius and height, beside this file; of kind profile_error"}};
+
+template <>
+inline constexpr auto keys<OutputConfig> = std::tuple{
+    Key{"history_interval", &OutputConfig::history_interval, Unit::s, "time between rows of history.csv; 0: 500 rows",
+        non_negative},
+    Key{"snapshot_interval", &OutputConfig::snapshot_interval, Unit::s, "time between snapshots; 0: only the last",
+        non_negative},
+    Key{"checkpoint_interval", &OutputConfig::checkpoint_interval, Unit::s, "simulated time between checkpoints; 0: none",
+        non_negative},
+    Key{"checkpoint_steps", &OutputConfig::checkpoint_steps, Unit::one, "steps between checkpoints; 0: none",
+        between(0, 1'000'000'000)},
+    Key{"checkpoint_wall", &OutputConfig::checkpoint_wall, Unit::s, "time on the clock between checkpoints", positive},
+    Key{"figure_field", &OutputConfig::figure_field, Unit::one, "what the figures show in colours"},
+    Key{"figures", &OutputConfig::figures, Unit::one, "draw figures at the end"}};
+
+template <>
+inline constexpr auto keys<GateConfig> =
+    std::tuple{Key{"residual", &GateConfig::residual, Unit::one,
+                   "largest part of energy, momentum and angular momentum that no book holds, over the peak", positive},
+               Key{"numerical", &GateConfig::numerical, Unit::one,
+                   "largest energy in numerical books over the peak kinetic energy", positive},
+               Key{"fastest", &GateConfig::fastest, Unit::m_per_s, "no particle may be faster", positive}};
+
+// The whole: top level, [numerics] ---------------------------------------------------------------------------------------
+
+template <>
+inline constexpr auto keys<NumericsConfig> = std::tuple{
+    Key{"basis", &NumericsConfig::basis, Unit::one, "functions of the grid"},
+    Key{"stress_timing", &NumericsConfig::stress_timing, Unit::one,
+        "stress from velocities mapped back after the motion (musl), from the new ones (usl), or before the forces (usf)"},
+    Key{"particle_velocity", &NumericsConfig::particle_velocity, Unit::one,
+        "how particles take the grid's velocity: its change (flip), or with an affine part and a slow filter (aflip)"},
+    Key{"filter_time", &NumericsConfig::filter_time, Unit::one,
+        "time constant of aflip's filter, in cell_size over sound speed", positive},
+    Key{"courant", &NumericsConfig::courant, Unit::one,
+        "part of the stable step; 0: 0.5 in two dimensions, 0.4 in three, 0.3 with usl", fraction},
+    Key{"most_volume_change", &NumericsConfig::most_volume_change, Unit::one, "of a particle in one step",
+        Interval{0.0, 0.5, true, false}},
+    Key{"growth", &NumericsConfig::growth, Unit::one, "largest ratio of a step to the one before",
+        Interval{1.0, 2.0, true, false}},
+    Key{"first_step", &NumericsConfig::first_step, Unit::s, "0: from the initial state", non_negative},
+    Key{"least_step", &NumericsConfig::least_step, Unit::s, "a smaller step stops the run", non_negative},
+    Key{"trimming", &NumericsConfig::trimming, Unit::one, "parts of a cell that are filled less than this get no particle",
+        Interval{0.0, 0.5}},
+    Key{"seed", &NumericsConfig::seed, Unit::one, "of the random numbers", between(0, 2147483647)}};
+
+template <>
+inline constexpr auto keys<Case> =
+    std::tuple{Key{"title", &Case::title, Unit::one, "one line; the name of the file if not given"},
+               Key{"geometry", &Case::geometry, Unit::one, "plane: x, y; axisymmetric: r, z; three_dimensional: x, y, z",
+                   any_value, required},
+               Key{"cell_size", &Case::cell_size, Unit::m, "width of a cell of the grid", positive, required},
+               Key{"end_time", &Case::end_time, Unit::s, "simulated time at the end", positive, required},
+               Key{"gravity", &Case::gravity, m_per_s2, "acceleration of all bodies"},
+               Key{"numerics", &Case::numerics, Unit::one, "how it is computed"},
+               Key{"solid", &Case::bodies, Unit::one, "a body", any_value, required},
+               Key{"boundary", &Case::boundaries, Unit::one, "a plane that bounds the bodies"},
+               Key{"load", &Case::loads, Unit::one, "pressure or traction on a surface"},
+               Key{"gauge", &Case::gauges, Unit::one, "a place that is watched over time"},
+               Key{"measure", &Case::measures, Unit::one, "a number that an experiment gave as well"},
+               Key{"output", &Case::output, Unit::one, "what is written, and when"},
+               Key{"gates", &Case::gates, Unit::one, "limits on what may go wrong"}};
+
+// Description ------------------------------------------------------------------------------------------------------------
+
+struct KeyDescription {
+  std::string path;           // "solid.velocity.translation"
+  std::string values;         // what may be written
+  std::string default_value;  // as TOML; "required" or empty
+  std::string meaning;
+};
+
+/// Every key of a case file, in the order of the tables above.
+const std::vector<KeyDescription>& all_keys();
+
+/// The descriptions of the keys with this path, or below it, or with this last name. Empty: none; then `suggestion` ends the
+/// error message.
+std::vector<KeyDescription> describe_key(std::string_view path, std::string& suggestion);
+
+}  // namespace brisance::simulator

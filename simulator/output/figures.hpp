@@ -1,0 +1,17 @@
+#pragma once
+// Figures of a run, drawn into its directory: the books against time, a field, and deformed profiles against measured ones.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "simulator/config.hpp"
+#include "simulator/simulation.hpp"
+
+namespace brisance::simulator {
+
+/// Draws energy.png from history.csv, field.png, and profile_<body>.png for every body with measures. A figure that fails is no
+/// reason to fail: returns one line for each of those.
+std::vector<std::string> draw_figures(const Case& c, const Simulation& s, const std::filesystem::path& directory);
+
+}  // namespace brisance::simulator

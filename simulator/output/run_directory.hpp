@@ -1,0 +1,31 @@
+#pragma once
+// The directory of a run and its log.
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "simulator/config.hpp"
+
+namespace brisance::simulator {
+
+/// Makes the directory of a new run and writes case.toml. Throws std::invalid_argument if it holds something else than an
+/// earlier run of the same case, unless that may be overwritten; what does not look like the output of a run is never removed.
+void prepare_directory(const std::filesystem::path& directory, const Case& c, bool overwrite);
+
+/// log.txt: lines with the time since the start. It never throws: what the log cannot hold is no reason to end a run.
+class Log {
+ public:
+  explicit Log(const std::filesystem::path& path, double wall_time_before = 0.0);
+  void line(const std::string& text);
+  double wall_time() const;  // s, of this run and of those it goes on from
+  void set_wall_time_before(double seconds) { before_ = seconds; }
+
+ private:
+  std::ofstream out_;
+  double before_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace brisance::simulator

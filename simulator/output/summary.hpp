@@ -1,0 +1,28 @@
+#pragma once
+// summary.json and the same for people to read.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "simulator/output/history.hpp"
+#include "simulator/output/measures.hpp"
+
+namespace brisance::simulator {
+
+struct Summary {
+  std::string title, ending, message;
+  double time = 0.0;  // s
+  std::int64_t steps = 0, particles = 0;
+  double wall_time = 0.0;  // s
+  double particle_steps_per_second = 0.0;
+  int threads = 1;
+  Books books;
+  std::vector<MeasuredValue> measures;
+};
+
+void write_summary(const Summary& summary, const std::filesystem::path& path);
+/// A table of the measures and the energies.
+std::string in_words(const Summary& summary);
+
+}  // namespace brisance::simulator

@@ -1,0 +1,46 @@
+#pragma once
+// A run: steps until the end, with history, snapshots, checkpoints and gates on the way.
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "simulator/output/summary.hpp"
+#include "simulator/simulation.hpp"
+
+namespace brisance::simulator {
+
+enum class Ending { done, failed, interrupted };
+
+struct RunOptions {
+  std::filesystem::path directory;  // as prepare_directory made it
+  std::optional<double> until;      // s, instead of the case's end
+  /// Steps of this run; after them it ends as if it had been interrupted.
+  std::int64_t most_steps = std::numeric_limits<std::int64_t>::max();
+};
+
+struct RunResult {
+  Ending ending = Ending::done;
+  std::string message;  // why it failed, with the checkpoint to go on from
+  Summary summary;
+};
+
+/// Runs a simulation that has been set up from the case.
+RunResult run(const Case& c, Simulation& s, const RunOptions& options);
+/// Goes on from the newest checkpoint in the directory; `s` has been set up from the case and gets its state.
+RunResult resume(const Case& c, Simulation& s, const RunOptions& options);
+/// What the newest checkpoint in a directory says, with figures drawn again; `s` has been set up from the case.
+Summary report(const Case& c, Simulation& s, const std::filesystem::path& directory);
+
+/// The size of the next step and what limits it. It follows from the state alone, so that a run that was interrupted takes the
+/// same steps as one that was not.
+struct StepSize {
+  double dt;
+  std::string_view limit;
+};
+StepSize next_step(const Simulation& s, const NumericsConfig& numerics, double end_time);
+
+}  // namespace brisance::simulator

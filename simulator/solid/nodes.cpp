@@ -1,0 +1,203 @@
+#include "simulator/solid/nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/parallel.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+/// A node with less than this part of a full cell's mass is empty. Its mass and momentum are sums of the same weights, so the
+/// velocity of the lightest node is exact, and a body moves freely only if none is left out. Beside a plane whose ghosts are
+/// subtracted, round-off may be all that is left of both.
+constexpr double empty = 1e-30, empty_beside_plane = 1e-12;
+
+double reference_mass(const Simulation& s) {
+  double density = 0.0;
+  for (const Body& b : s.bodies) density = std::max(density, b.material.density);
+  const double h = s.grid.cell_size;
+  return density * (s.dimensions() == 3 ? h * h * h : s.geometry == Geometry::axisymmetric ? h * h * h : h * h);
+}
+
+template <int D>
+Vector read(const std::array<double, 8>& c, int first) {
+  Vector v{};
+  for (int a = 0; a < D; ++a) v[static_cast<std::size_t>(a)] = c[static_cast<std::size_t>(first + a)];
+  return v;
+}
+template <int D>
+void write(std::array<double, 8>& c, int first, const Vector& v) {
+  for (int a = 0; a < D; ++a) c[static_cast<std::size_t>(first + a)] = v[static_cast<std::size_t>(a)];
+}
+
+/// The boundaries whose planes run through a block.
+struct Crossing {
+  std::size_t boundary;
+  int axis, plane;
+};
+template <int D>
+std::vector<Crossing> crossings(const Simulation& s, BlockKey key) {
+  std::vector<Crossing> found;
+  for (std::size_t b = 0; b < s.boundaries.size(); ++b)
+    if (s.boundaries[b].kind != BoundaryKind::outflow)
+      if (const int plane = local_plane<D>(s.boundaries[b], key); plane >= 0) found.push_back({b, s.boundaries[b].axis, plane});
+  return found;
+}
+
+/// Which mass makes a node of a block one.
+template <int D>
+class LeastMass {
+ public:
+  LeastMass(const Simulation& s, BlockKey key, double reference) : reference_(reference) {
+    for (const Boundary& b : s.boundaries) {
+      if (!b.has_ghosts() || b.is_mirror()) continue;
+      const int local = b.node + b.inward - block_position(key)[static_cast<std::size_t>(b.axis)] * Block<D>::side;
+      if (local >= 0 && local < Block<D>::side) beside_.push_back({0, b.axis, local});
+    }
+  }
+  double operator()(const std::array<int, 3>& local) const {
+    for (const Crossing& c : beside_)
+      if (local[static_cast<std::size_t>(c.axis)] == c.plane) return empty_beside_plane * reference_;
+    return empty * reference_;
+  }
+
+ private:
+  double reference_;
+  std::vector<Crossing> beside_;
+};
+
+template <int D>
+Vector place(const BlockPosition& block, const std::array<int, 3>& local, double h) {
+  Vector x{};
+  for (int a = 0; a < D; ++a) x[static_cast<std::size_t>(a)] = h * (block[a] * Block<D>::side + local[a]);
+  return x;
+}
+template <int D>
+std::array<int, 3> local_index(int node) {
+  constexpr int side = Block<D>::side;
+  return {node % side, node / side % side, D == 3 ? node / (side * side) : 0};
+}
+
+/// What a force or a jump of velocity does to a node: m dv at x, with the mean velocity over it.
+Change act(const Vector& impulse, const Vector& x, const Vector& mean_velocity) {
+  return {dot(impulse, mean_velocity), impulse, cross(x, impulse)};
+}
+
+/// The velocity after a boundary has acted, and the part of the impulse that is friction: Coulomb's law along a wall, at most
+/// what stops the sliding.
+Vector with_friction(const Boundary& b, const Vector& before, Vector after) {
+  if (b.kind != BoundaryKind::rigid_wall || b.friction == 0.0) return after;
+  const auto axis = static_cast<std::size_t>(b.axis);
+  const double pressed = std::abs(after[axis] - before[axis]);
+  Vector slip = after;
+  slip[axis] = 0.0;
+  const double size = std::sqrt(dot(slip, slip));
+  if (pressed == 0.0 || size == 0.0) return after;
+  return after - (std::min(b.friction * pressed, size) / size) * slip;
+}
+
+template <int D>
+void accelerate_block(Simulation& s, std::size_t number, double dt, double reference, NodeTally& tally,
+                      std::vector<BoundaryTally>& boundaries) {
+  const BlockKey key = s.grid.blocks[number];
+  const BlockPosition block = block_position(key);
+  const std::vector<Crossing> planes = crossings<D>(s, key);
+  const LeastMass<D> least_mass(s, key, reference);
+  const double end = s.time + dt;
+  for (int field = 0; field < s.grid.fields; ++field) {
+    const Lanes* sums = s.grid.block_sums(number, field);
+    Lanes* motion = s.grid.block_motion(number, field);
+    for (int n = 0; n < Block<D>::nodes; ++n) {
+      alignas(64) std::array<double, 8> in, out{};
+      sums[n].store(in.data());
+      const double m = in[Channel::mass];
+      const std::array<int, 3> local = local_index<D>(n);
+      if (m > least_mass(local)) {
+        const Vector x = place<D>(block, local, s.grid.cell_size);
+        const Vector impulse = dt * read<D>(in, Channel::force);
+        Vector before = (1.0 / m) * read<D>(in, Channel::momentum);
+        for (const Crossing& c : planes)
+          if (local[static_cast<std::size_t>(c.axis)] == c.plane)
+            before = bounded(s.boundaries[c.boundary], before, in[Channel::touch] > 0.0, s.time);
+        const Vector free = before + (1.0 / m) * impulse;
+        Vector after = free;
+        for (const Crossing& c : planes)
+          if (local[static_cast<std::size_t>(c.axis)] == c.plane) {
+            const Boundary& b = s.boundaries[c.boundary];
+            after = with_friction(b, after, bounded(b, after, in[Channel::touch] > 0.0, end));
+          }
+        // With the final velocity known, every impulse is booked with the same mean velocity.
+        const Vector mean = 0.5 * (before + after);
+        Vector velocity = free;
+        for (const Crossing& c : planes)
+          if (local[static_cast<std::size_t>(c.axis)] == c.plane) {
+            const Boundary& b = s.boundaries[c.boundary];
+            const Vector held = bounded(b, velocity, in[Channel::touch] > 0.0, end), rubbed = with_friction(b, velocity, held);
+            BoundaryTally& to = boundaries[c.boundary];
+            to.impulse += act(m * (rubbed - velocity), x, mean);
+            to.friction += dot(m * (rubbed - held), mean);
+            velocity = rubbed;
+          }
+        tally.force += act(impulse, x, mean);
+        tally.change += act(m * (after - before), x, mean);
+        out[Channel::mass] = m, out[Channel::touch] = in[Channel::touch];
+        write<D>(out, Channel::velocity, after), write<D>(out, Channel::change, after - before);
+      }
+      motion[n] = Lanes::load(out.data());
+    }
+  }
+}
+
+template <int D>
+void velocities_of_block(Simulation& s, std::size_t number, double reference, Touch touch) {
+  const BlockKey key = s.grid.blocks[number];
+  const std::vector<Crossing> planes = crossings<D>(s, key);
+  const LeastMass<D> least_mass(s, key, reference);
+  for (int field = 0; field < s.grid.fields; ++field) {
+    const Lanes* sums = s.grid.block_sums(number, field);
+    Lanes* motion = s.grid.block_motion(number, field);
+    for (int n = 0; n < Block<D>::nodes; ++n) {
+      alignas(64) std::array<double, 8> in, out{};
+      sums[n].store(in.data());
+      const double m = in[Channel::mass];
+      const std::array<int, 3> local = local_index<D>(n);
+      if (m > least_mass(local)) {
+        Vector v = (1.0 / m) * read<D>(in, Channel::momentum);
+        const bool touched = (touch == Touch::as_accelerated ? motion[n] : sums[n])[Channel::touch] > 0.0;
+        for (const Crossing& c : planes)
+          if (local[static_cast<std::size_t>(c.axis)] == c.plane) v = bounded(s.boundaries[c.boundary], v, touched, s.time);
+        out[Channel::mass] = m, out[Channel::touch] = touched ? 1.0 : 0.0;
+        write<D>(out, Channel::velocity, v);
+      }
+      motion[n] = Lanes::load(out.data());
+    }
+  }
+}
+
+}  // namespace
+
+NodeResult accelerate(Simulation& s, double dt) {
+  const Timed timed(s.times, Phase::nodes);
+  NodeResult result;
+  result.tallies.resize(s.grid.my_blocks.size());
+  result.boundaries.assign(s.grid.my_blocks.size(), std::vector<BoundaryTally>(s.boundaries.size()));
+  const double reference = reference_mass(s);
+  parallel_for_blocks(s.grid.my_blocks.size(), [&](std::size_t i) {
+    const auto b = static_cast<std::size_t>(s.grid.my_blocks[i]);
+    s.dimensions() == 3 ? accelerate_block<3>(s, b, dt, reference, result.tallies[i], result.boundaries[i])
+                        : accelerate_block<2>(s, b, dt, reference, result.tallies[i], result.boundaries[i]);
+  });
+  return result;
+}
+
+void velocities_from_momentum(Simulation& s, Touch touch) {
+  const Timed timed(s.times, Phase::nodes);
+  const double reference = reference_mass(s);
+  parallel_for_blocks(s.grid.my_blocks.size(), [&](std::size_t i) {
+    const auto b = static_cast<std::size_t>(s.grid.my_blocks[i]);
+    s.dimensions() == 3 ? velocities_of_block<3>(s, b, reference, touch) : velocities_of_block<2>(s, b, reference, touch);
+  });
+}
+
+}  // namespace brisance::simulator

@@ -1,0 +1,129 @@
+#include "simulator/solid/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace brisance::simulator {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Vector difference(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+double square(double x) {
+  return x * x;
+}
+
+bool holds(const Box& box, const Vector& p) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool flat = box.lower[k] == box.upper[k];  // across the two dimensions of a plane or axisymmetric geometry
+    if (flat ? p[k] != box.lower[k] : p[k] < box.lower[k] || p[k] >= box.upper[k]) return false;
+  }
+  return true;
+}
+
+bool holds(const Sphere& sphere, const Vector& p) {
+  const Vector d = difference(p, sphere.centre);
+  return dot(d, d) < square(sphere.radius) && dot(d, d) >= square(sphere.inner_radius);
+}
+
+bool holds(const Cone& cone, const Vector& p) {
+  const Vector axis = difference(cone.end, cone.start), d = difference(p, cone.start);
+  const double part = dot(d, axis) / dot(axis, axis);
+  // The face with the smaller coordinates belongs to the cone, as with a box, whichever end is called the start.
+  const bool upwards = axis > Vector{};
+  if (upwards ? part < 0.0 || part >= 1.0 : part <= 0.0 || part > 1.0) return false;
+  const Vector off_axis = {d[0] - part * axis[0], d[1] - part * axis[1], d[2] - part * axis[2]};
+  const double distance_squared = dot(off_axis, off_axis);
+  return distance_squared < square(std::lerp(cone.start_radius, cone.end_radius, part)) &&
+         distance_squared >= square(std::lerp(cone.inner_start_radius, cone.inner_end_radius, part));
+}
+
+bool holds(const Union& form, const Vector& p) {
+  return std::any_of(form.parts.begin(), form.parts.end(), [&](const ShapePointer& part) { return contains(*part, p); });
+}
+bool holds(const Intersection& form, const Vector& p) {
+  return std::all_of(form.parts.begin(), form.parts.end(), [&](const ShapePointer& part) { return contains(*part, p); });
+}
+bool holds(const Difference& form, const Vector& p) {
+  return contains(*form.from, p) &&
+         std::none_of(form.without.begin(), form.without.end(), [&](const ShapePointer& part) { return contains(*part, p); });
+}
+
+Bounds bounds_of(const Box& box) {
+  return {box.lower, box.upper};
+}
+Bounds bounds_of(const Sphere& sphere) {
+  Bounds result{sphere.centre, sphere.centre};
+  for (std::size_t k = 0; k < 3; ++k) result.lower[k] -= sphere.radius, result.upper[k] += sphere.radius;
+  return result;
+}
+Bounds bounds_of(const Cone& cone) {
+  const Vector axis = difference(cone.end, cone.start);
+  Bounds result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    // How far a disk of radius 1 across the axis reaches along direction k.
+    const double reach = std::sqrt(std::max(0.0, 1.0 - square(axis[k]) / dot(axis, axis)));
+    result.lower[k] = std::min(cone.start[k] - reach * cone.start_radius, cone.end[k] - reach * cone.end_radius);
+    result.upper[k] = std::max(cone.start[k] + reach * cone.start_radius, cone.end[k] + reach * cone.end_radius);
+  }
+  return result;
+}
+Bounds bounds_of(const Union& form) {
+  Bounds result{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  for (const ShapePointer& part : form.parts) {
+    const Bounds other = bounds(*part);
+    for (std::size_t k = 0; k < 3; ++k) {
+      result.lower[k] = std::min(result.lower[k], other.lower[k]);
+      result.upper[k] = std::max(result.upper[k], other.upper[k]);
+    }
+  }
+  return result;
+}
+Bounds bounds_of(const Intersection& form) {
+  Bounds result{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
+  for (const ShapePointer& part : form.parts) {
+    const Bounds other = bounds(*part);
+    for (std::size_t k = 0; k < 3; ++k) {
+      result.lower[k] = std::max(result.lower[k], other.lower[k]);
+      result.upper[k] = std::min(result.upper[k], other.upper[k]);
+    }
+  }
+  return result;
+}
+Bounds bounds_of(const Difference& form) {
+  return bounds(*form.from);
+}
+
+}  // namespace
+
+bool contains(const Shape& shape, const Vector& point) {
+  return std::visit([&](const auto& form) { return holds(form, point); }, shape.form);
+}
+
+Bounds bounds(const Shape& shape) {
+  return std::visit([](const auto& form) { return bounds_of(form); }, shape.form);
+}
+
+double filled_fraction(const Shape& shape, Geometry geometry, const Vector& lower, const Vector& upper,
+                       int samples_per_direction) {
+  const int n = samples_per_direction, n_z = geometry == Geometry::three_dimensional ? n : 1;
+  const auto middle = [&](std::size_t k, int i) { return lower[k] + (upper[k] - lower[k]) * (i + 0.5) / n; };
+  double all = 0.0, filled = 0.0;
+  for (int k = 0; k < n_z; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const Vector point = {middle(0, i), middle(1, j), n_z > 1 ? middle(2, k) : 0.0};
+        const double weight = geometry == Geometry::axisymmetric ? point[0] : 1.0;
+        all += weight;
+        if (contains(shape, point)) filled += weight;
+      }
+  return all > 0.0 ? filled / all : 0.0;
+}
+
+}  // namespace brisance::simulator

@@ -1,0 +1,317 @@
+#include "simulator/solid/stress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "models/kinematics.hpp"
+#include "models/update.hpp"
+#include "simulator/domain/message.hpp"
+#include "simulator/parallel.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+using Pack = Point<Lanes>;
+
+Lanes read(const double* columns, int k) {
+  return Lanes::load(columns + k * chunk_size);
+}
+void write(double* columns, int k, const Lanes& value) {
+  value.store(columns + k * chunk_size);
+}
+
+template <int D>
+Tensor<Lanes> read_tensor(const double* c) {
+  if constexpr (D == 3)
+    return {read(c, 0), read(c, 1), read(c, 2), read(c, 3), read(c, 4), read(c, 5), read(c, 6), read(c, 7), read(c, 8)};
+  Tensor<Lanes> t;
+  t.xx = read(c, 0), t.xy = read(c, 1), t.yx = read(c, 2), t.yy = read(c, 3), t.zz = read(c, 4);
+  return t;
+}
+template <int D>
+void write_tensor(double* c, const Tensor<Lanes>& t) {
+  if constexpr (D == 3) {
+    write(c, 0, t.xx), write(c, 1, t.xy), write(c, 2, t.xz), write(c, 3, t.yx), write(c, 4, t.yy), write(c, 5, t.yz);
+    write(c, 6, t.zx), write(c, 7, t.zy), write(c, 8, t.zz);
+  } else {
+    write(c, 0, t.xx), write(c, 1, t.xy), write(c, 2, t.yx), write(c, 3, t.yy), write(c, 4, t.zz);
+  }
+}
+template <int D>
+SymmetricTensor<Lanes> read_stress(const double* c) {
+  SymmetricTensor<Lanes> t;
+  t.xx = read(c, 0), t.yy = read(c, 1), t.zz = read(c, 2);
+  if constexpr (D == 3)
+    t.yz = read(c, 3), t.xz = read(c, 4), t.xy = read(c, 5);
+  else
+    t.xy = read(c, 3);
+  return t;
+}
+template <int D>
+void write_stress(double* c, const SymmetricTensor<Lanes>& t) {
+  write(c, 0, t.xx), write(c, 1, t.yy), write(c, 2, t.zz);
+  if constexpr (D == 3)
+    write(c, 3, t.yz), write(c, 4, t.xz), write(c, 5, t.xy);
+  else
+    write(c, 3, t.xy);
+}
+
+/// The columns of `rest` that are members of the state, with them.
+template <class Layout, class State, class F>
+void for_each_scalar(State& s, F&& f) {
+  using R = typename Layout::Rest;
+  f(R::energy, s.energy), f(R::temperature, s.temperature), f(R::plastic_strain, s.plastic_strain);
+  f(R::plastic_strain_rate, s.plastic_strain_rate), f(R::plastic_volume_strain, s.plastic_volume_strain);
+  f(R::porosity, s.porosity), f(R::damage, s.damage), f(R::shear_modulus, s.shear_modulus), f(R::flow_history, s.flow_history);
+  f(R::failure_cause, s.failure_cause), f(R::failure_time, s.failure_time);
+}
+
+template <int D>
+void read_point(const Particles& ps, int chunk, double cell_size, Pack& p) {
+  using L = Layout<D>;
+  const double *load = ps.load.chunk(chunk), *rest = ps.rest.chunk(chunk);
+  p.velocity_gradient = read_tensor<D>(ps.gradient.chunk(chunk));
+  p.cell_size = Lanes(cell_size);
+  p.state.stress = read_stress<D>(load + L::Load::stress * chunk_size);
+  p.state.density = read(load, L::Load::density);
+  p.state.deformation_gradient = read_tensor<D>(rest + L::Rest::deformation_gradient * chunk_size);
+  if constexpr (D == 2) {
+    Tensor<Lanes>& F = p.state.deformation_gradient;
+    F.xz = F.yz = F.zx = F.zy = Lanes(0.0);
+  }
+  for_each_scalar<L>(p.state, [&](int column, Lanes& value) { value = read(rest, column); });
+  for (int k = 0; k < ps.history_columns; ++k) p.state.history[static_cast<std::size_t>(k)] = read(rest, ps.history() + k);
+  p.state.strength = ps.has_strength ? read(rest, ps.strength()) : Lanes(1.0);
+}
+
+template <int D>
+void write_point(Particles& ps, int chunk, const Pack& p) {
+  using L = Layout<D>;
+  double *load = ps.load.chunk(chunk), *rest = ps.rest.chunk(chunk);
+  write_stress<D>(load + L::Load::stress * chunk_size, p.state.stress);
+  write(load, L::Load::density, p.state.density);
+  write(load, L::Load::artificial_viscosity, p.artificial_viscosity);
+  write_tensor<D>(rest + L::Rest::deformation_gradient * chunk_size, p.state.deformation_gradient);
+  for_each_scalar<L>(p.state, [&](int column, const Lanes& value) { write(rest, column, value); });
+  for (int k = 0; k < ps.history_columns; ++k) write(rest, ps.history() + k, p.state.history[static_cast<std::size_t>(k)]);
+  // Work per mass, computed from the stresses at both ends of the step and not from the energy, which it has to account for.
+  const Lanes volume_change = 1.0 / p.state.density - 1.0 / p.density_before;
+  const Lanes shape = double_dot(p.deviator_before + p.deviator, p.strain_increment) / (p.state.density + p.density_before);
+  const Lanes bulk = -0.5 * (p.pressure_before + p.pressure) * volume_change;
+  write(rest, L::Rest::stress_work, read(rest, L::Rest::stress_work) + shape + bulk);
+  write(rest, L::Rest::viscous_work, read(rest, L::Rest::viscous_work) - p.artificial_viscosity * volume_change);
+  write(rest, L::Rest::plastic_work, read(rest, L::Rest::plastic_work) + p.plastic_work / p.state.density);
+}
+
+/// Largest element of the lanes in use.
+double largest(const Lanes& a, int lanes) {
+  double m = a[0];
+  for (int i = 1; i < lanes; ++i) m = std::max(m, a[i]);
+  return m;
+}
+
+/// Speeds that limit the step, from sound speed, artificial viscosity and velocity.
+template <int D>
+void look(const Simulation& s, const Body& body, int chunk, const Lanes& density, const Lanes& bulk_modulus,
+          const Lanes& shear_modulus, const ColumnSet& motion, Extremes& e) {
+  using L = Layout<D>;
+  const int used = std::min(chunk_size, body.particles.size - chunk * chunk_size);
+  const Lanes c = sqrt((bulk_modulus + (4.0 / 3.0) * shear_modulus) / density);
+  Lanes trace(0.0);
+  const double* l = body.particles.gradient.chunk(chunk);
+  for (const int k : {0, D == 3 ? 4 : 3, D == 3 ? 8 : 4}) trace = trace + read(l, k);
+  const Lanes jump = s.grid.cell_size * max(-trace, Lanes(0.0));
+  const ArtificialViscosity& viscosity = body.material.artificial_viscosity;
+  const Lanes Q = select(jump > 0.0, viscosity.linear * c + viscosity.quadratic * jump, Lanes(0.0));
+  const Lanes wave = Q + sqrt(Q * Q + c * c);
+  Lanes speed(0.0);
+  for (int a = 0; a < D; ++a) speed = max(speed, abs(read(motion.chunk(chunk), L::Motion::velocity + a)));
+  e.wave_speed = std::max(e.wave_speed, largest(wave, used));
+  e.wave_and_motion = std::max(e.wave_and_motion, largest(wave + speed, used));
+  e.speed = std::max(e.speed, largest(speed, used));
+  e.volume_rate = std::max(e.volume_rate, largest(abs(trace), used));
+}
+
+Extremes& operator|=(Extremes& a, const Extremes& b) {
+  a.wave_speed = std::max(a.wave_speed, b.wave_speed), a.wave_and_motion = std::max(a.wave_and_motion, b.wave_and_motion);
+  a.speed = std::max(a.speed, b.speed), a.volume_rate = std::max(a.volume_rate, b.volume_rate);
+  return a;
+}
+Extremes over_all_ranks(Domain& domain, const Extremes& e) {
+  return {domain.maximum(e.wave_speed), domain.maximum(e.wave_and_motion), domain.maximum(e.speed),
+          domain.maximum(e.volume_rate)};
+}
+
+/// The particle that a material could not advance.
+struct Failing {
+  Trouble trouble = Trouble::none;
+  int particle = -1;
+  std::uint64_t id = ~std::uint64_t{0};
+};
+
+template <int D>
+[[noreturn]] void report(const Simulation& s, const Body& body, const Failing& f) {
+  using L = Layout<D>;
+  const Particles& ps = body.particles;
+  const double* rest = ps.rest.particle(f.particle);
+  std::string place;
+  for (int a = 0; a < D; ++a) place += fmt::format("{}{:.6g}", a ? ", " : "", ps.motion.at(a, f.particle));
+  throw std::runtime_error(
+      fmt::format("{}: particle {} at ({}) m, step {}, time {:.6g} s: {}; temperature {:.5g} K, plastic strain {:.4g}, plastic "
+                  "strain rate {:.4g} /s, "
+                  "density {:.6g} kg/m^3",
+                  body.name, f.id, place, s.step, s.time, describe(f.trouble), rest[L::Rest::temperature * chunk_size],
+                  rest[L::Rest::plastic_strain * chunk_size], rest[L::Rest::plastic_strain_rate * chunk_size],
+                  ps.load.at(L::Load::density, f.particle)));
+}
+
+/// The material's own update of the particles of one batch.
+template <int D>
+void advance_batch(const Simulation& s, Body& body, int first_chunk, int chunks, double dt, const ColumnSet& velocities,
+                   Batch<Lanes>& batch, Extremes& extremes, Failing& failing) {
+  Particles& ps = body.particles;
+  batch.size = chunks, batch.time = s.time + dt;
+  for (int c = 0; c < chunks; ++c)
+    read_point<D>(ps, first_chunk + c, s.grid.cell_size, batch.points[static_cast<std::size_t>(c)]);
+  update(body.material, batch, dt);
+  for (int c = 0; c < chunks; ++c) {
+    const Pack& p = batch.points[static_cast<std::size_t>(c)];
+    const int used = std::min(chunk_size, ps.size - (first_chunk + c) * chunk_size);
+    for (int i = 0; i < used; ++i) {
+      const auto trouble = static_cast<Trouble>(static_cast<int>(p.trouble[i]));
+      const int particle = (first_chunk + c) * chunk_size + i;
+      const std::uint64_t id = ps.id[static_cast<std::size_t>(particle)];
+      if (trouble != Trouble::none && id < failing.id) failing = {trouble, particle, id};
+    }
+    write_point<D>(ps, first_chunk + c, p);
+    look<D>(s, body, first_chunk + c, p.state.density, p.bulk_modulus, p.state.shear_modulus, velocities, extremes);
+  }
+}
+
+/// Deformation gradient and density of a body whose stress is a given function, then that function.
+template <int D>
+void advance_prescribed(const Simulation& s, Body& body, double dt, const ColumnSet& velocities, Extremes& extremes) {
+  using L = Layout<D>;
+  Particles& ps = body.particles;
+  for (int c = 0; c < ps.chunks(); ++c) {
+    const Tensor<Lanes> A = Lanes(dt) * read_tensor<D>(ps.gradient.chunk(c));
+    double* F = ps.rest.chunk(c) + L::Rest::deformation_gradient * chunk_size;
+    write_tensor<D>(F, exponential(A) * read_tensor<D>(F));
+    double* load = ps.load.chunk(c);
+    write(load, L::Load::density, read(load, L::Load::density) * exp(-trace(A)));
+  }
+  for (int p = 0; p < ps.size; ++p) body.stress(body, p);
+  for (int c = 0; c < ps.chunks(); ++c) {
+    const Lanes rho = read(ps.load.chunk(c), L::Load::density), mu = read(ps.rest.chunk(c), L::Rest::shear_modulus);
+    look<D>(s, body, c, rho, Lanes(*body.material.bulk_modulus), mu, velocities, extremes);
+  }
+}
+
+template <int D>
+void advance_all(Simulation& s, double dt, ColumnSet Particles::*velocities) {
+  Extremes all;
+  for (Body& body : s.bodies) {
+    if (body.stress) {
+      advance_prescribed<D>(s, body, dt, body.particles.*velocities, all);
+      continue;
+    }
+    constexpr int batch_chunks = Batch<Lanes>::capacity;
+    const int chunks = body.particles.chunks(), batches = (chunks + batch_chunks - 1) / batch_chunks;
+    // A few batches per piece of work, so that the scratch batch is made once for them.
+    constexpr int per_piece = 16;
+    const int pieces = (batches + per_piece - 1) / per_piece;
+    std::vector<Extremes> extremes(static_cast<std::size_t>(pieces));
+    std::vector<Failing> failing(static_cast<std::size_t>(pieces));
+    parallel_for_blocks(static_cast<std::size_t>(pieces), [&](std::size_t piece) {
+      const auto batch = std::make_unique<Batch<Lanes>>();
+      const int end = std::min(batches, (static_cast<int>(piece) + 1) * per_piece);
+      for (int b = static_cast<int>(piece) * per_piece; b < end; ++b)
+        advance_batch<D>(s, body, b * batch_chunks, std::min(batch_chunks, chunks - b * batch_chunks), dt,
+                         body.particles.*velocities, *batch, extremes[piece], failing[piece]);
+    });
+    for (const Extremes& e : extremes) all |= e;
+    const auto worst =
+        std::min_element(failing.begin(), failing.end(), [](const Failing& a, const Failing& b) { return a.id < b.id; });
+    if (worst != failing.end() && worst->trouble != Trouble::none) report<D>(s, body, *worst);
+  }
+  s.extremes = over_all_ranks(*s.domain, all);
+}
+
+/// A batch that does not move tells its moduli; what the update makes of it is thrown away.
+template <int D>
+Extremes look_at_all(const Simulation& s) {
+  Extremes all;
+  const auto batch = std::make_unique<Batch<Lanes>>();
+  for (const Body& body : s.bodies)
+    for (int c = 0; c < body.particles.chunks(); ++c) {
+      if (body.stress) {
+        const Lanes rho = read(body.particles.load.chunk(c), Layout<D>::Load::density);
+        look<D>(s, body, c, rho, Lanes(*body.material.bulk_modulus),
+                read(body.particles.rest.chunk(c), Layout<D>::Rest::shear_modulus), body.particles.motion, all);
+        continue;
+      }
+      Pack& p = batch->points[0];
+      batch->size = 1, batch->time = s.time;
+      read_point<D>(body.particles, c, s.grid.cell_size, p);
+      p.velocity_gradient = {};
+      constexpr double any_time = 1e-9;
+      update(body.material, *batch, any_time);
+      look<D>(s, body, c, p.state.density, p.bulk_modulus, p.state.shear_modulus, body.particles.motion, all);
+    }
+  return all;
+}
+
+template <int D>
+InternalEnergy of_bin(const Body& body, const Bin& bin) {
+  using L = Layout<D>;
+  InternalEnergy sum;
+  for (std::uint32_t i = bin.begin; i < bin.end; ++i) {
+    const int p = static_cast<int>(body.bins.order[i]);
+    const double *load = body.particles.load.particle(p), *rest = body.particles.rest.particle(p);
+    const auto of = [&](int column) { return rest[column * chunk_size]; };
+    const double m = load[L::Load::mass * chunk_size], V = m / load[L::Load::density * chunk_size],
+                 mu = of(L::Rest::shear_modulus);
+    const auto sigma = [&](int k) { return load[(L::Load::stress + k) * chunk_size]; };
+    const SymmetricTensor<double> stress{
+        sigma(0), sigma(1), sigma(2), D == 3 ? sigma(3) : 0.0, D == 3 ? sigma(4) : 0.0, D == 3 ? sigma(5) : sigma(3)};
+    const SymmetricTensor<double> dev = deviator(stress);
+    sum += {m * of(L::Rest::energy),
+            m * of(L::Rest::stress_work),
+            m * of(L::Rest::viscous_work),
+            m * of(L::Rest::plastic_work),
+            mu > 0.0 ? V * double_dot(dev, dev) / (4.0 * mu) : 0.0,
+            m};
+  }
+  return sum;
+}
+
+}  // namespace
+
+Extremes extremes_of(const Simulation& s) {
+  return over_all_ranks(*s.domain, s.dimensions() == 3 ? look_at_all<3>(s) : look_at_all<2>(s));
+}
+
+void update_stress(Simulation& s, double dt, ColumnSet Particles::*velocities) {
+  const Timed timed(s.times, Phase::update_stress);
+  s.dimensions() == 3 ? advance_all<3>(s, dt, velocities) : advance_all<2>(s, dt, velocities);
+}
+
+InternalEnergy internal_energy(const Simulation& s, const Body& body) {
+  Message mine;
+  for (const Bin& bin : body.bins.bins) append(mine, s.dimensions() == 3 ? of_bin<3>(body, bin) : of_bin<2>(body, bin));
+  InternalEnergy sum;
+  for (const Message& list : all_gather(*s.domain, mine))
+    for (MessageReader reader(list); !reader.at_end();) sum += reader.read<InternalEnergy>();
+  return sum;
+}
+
+InternalEnergy internal_energy(const Simulation& s) {
+  InternalEnergy sum;
+  for (const Body& body : s.bodies) sum += internal_energy(s, body);
+  return sum;
+}
+
+}  // namespace brisance::simulator

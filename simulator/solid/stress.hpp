@@ -1,0 +1,20 @@
+#pragma once
+// The constitutive update of all particles, eight side by side, from the velocity gradients of the step.
+
+#include "simulator/simulation.hpp"
+
+namespace brisance::simulator {
+
+/// Advances stress, deformation gradient, density, energy, temperature and history by dt (s), and finds the extremes for the
+/// next step, with the velocities of the given columns. Throws std::runtime_error with the facts of the first particle (by id)
+/// that a material could not advance.
+void update_stress(Simulation& s, double dt, ColumnSet Particles::*velocities);
+
+/// The extremes of the state as it is, without advancing it.
+Extremes extremes_of(const Simulation& s);
+
+/// The internal energy of a body's particles, or of all, summed in the order of the bins.
+InternalEnergy internal_energy(const Simulation& s, const Body& body);
+InternalEnergy internal_energy(const Simulation& s);
+
+}  // namespace brisance::simulator

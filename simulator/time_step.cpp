@@ -1,0 +1,91 @@
+#include "simulator/time_step.hpp"
+
+#include "simulator/solid/motion.hpp"
+#include "simulator/solid/nodes.hpp"
+#include "simulator/solid/stress.hpp"
+#include "simulator/solid/transfer.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+/// The constitutive update integrates up to this |dt L| accurately; far below what would turn a particle inside out.
+constexpr double largest_increment = 0.14;
+
+bool acceptable(const LargestGradient& gradient, double dt) {
+  return gradient.norm * dt <= largest_increment;
+}
+
+void share_momentum(Simulation& s) {
+  const Timed timed(s.times, Phase::sum_tiles);
+  gather_tiles(s.grid, *s.domain);
+  sum_tiles(s.grid);
+}
+
+/// Stress from the velocities of the grid, unless the step is too large.
+bool deform(Simulation& s, double dt, ColumnSet Particles::*velocities) {
+  broadcast_motion(s.grid, *s.domain);
+  if (!acceptable(velocity_gradients(s), dt)) return false;
+  update_stress(s, dt, velocities);
+  return true;
+}
+
+StepOutcome advance_musl(Simulation& s, double dt, double dt_velocity) {
+  particles_to_grid(s, Carry::motion_and_force);
+  share_momentum(s);
+  const NodeResult nodes = accelerate(s, dt_velocity);
+  broadcast_motion(s.grid, *s.domain);
+  const ParticleResult particles = grid_to_particles(s, {dt, dt_velocity, true});
+  share_momentum(s);
+  velocities_from_momentum(s, Touch::as_accelerated);
+  if (!deform(s, dt, &Particles::next_motion)) return StepOutcome::rejected;
+  accept_motion(s, particles, nodes, dt);
+  return StepOutcome::done;
+}
+
+StepOutcome advance_usl(Simulation& s, double dt, double dt_velocity) {
+  particles_to_grid(s, Carry::motion_and_force);
+  share_momentum(s);
+  const NodeResult nodes = accelerate(s, dt_velocity);
+  broadcast_motion(s.grid, *s.domain);
+  const ParticleResult particles = grid_to_particles(s, {dt, dt_velocity, false});
+  if (!deform(s, dt, &Particles::next_motion)) return StepOutcome::rejected;
+  accept_motion(s, particles, nodes, dt);
+  return StepOutcome::done;
+}
+
+StepOutcome advance_usf(Simulation& s, double dt, double dt_velocity) {
+  particles_to_grid(s, Carry::motion);
+  share_momentum(s);
+  velocities_from_momentum(s, Touch::in_sums);
+  if (!deform(s, dt, &Particles::motion)) return StepOutcome::rejected;
+  particles_to_grid(s, Carry::motion_and_force);
+  share_momentum(s);
+  const NodeResult nodes = accelerate(s, dt_velocity);
+  broadcast_motion(s.grid, *s.domain);
+  accept_motion(s, grid_to_particles(s, {dt, dt_velocity, false}), nodes, dt);
+  return StepOutcome::done;
+}
+
+}  // namespace
+
+StepOutcome advance(Simulation& s, double dt) {
+  const double dt_velocity = 0.5 * (dt + s.last_time_step);
+  activate_blocks(s);
+  switch (s.numerics.stress_timing) {
+    case StressTiming::usl:
+      return advance_usl(s, dt, dt_velocity);
+    case StressTiming::usf:
+      return advance_usf(s, dt, dt_velocity);
+    default:
+      return advance_musl(s, dt, dt_velocity);
+  }
+}
+
+void begin(Simulation& s) {
+  place_particles(s);
+  activate_blocks(s);
+  s.extremes = extremes_of(s);
+  open_books(s);
+}
+
+}  // namespace brisance::simulator

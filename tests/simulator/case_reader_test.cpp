@@ -1,0 +1,432 @@
+// Case files: what is read, what is written, and what is refused with which words.
+
+#include "simulator/case_reader.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "models/input/csv.hpp"
+#include "models/input/diagnostics.hpp"
+#include "simulator/keys.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path& folder() {
+  static const fs::path path = [] {
+    const fs::path made = fs::path(testing::TempDir()) / ("brisance_case_" + std::to_string(getpid()));
+    fs::create_directories(made);
+    std::ofstream(made / "profile.csv") << "radius [mm],height [mm]\n5.5,0\n3.81,22.5\n";
+    std::ofstream(made / "bad_profile.csv") << "radius [mm],z [mm]\n5.5,0\n";
+    return made;
+  }();
+  return path;
+}
+
+fs::path written(const std::string& text, const std::string& name = "case.toml") {
+  std::ofstream(folder() / name) << text;
+  return folder() / name;
+}
+
+std::string problems_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    read_case(written(text), overrides);
+  } catch (const InputError& error) {
+    std::string what = error.what();
+    const std::string prefix = folder().string() + '/';
+    for (std::size_t at = 0; (at = what.find(prefix)) != std::string::npos;) what.erase(at, prefix.size());
+    return what;
+  }
+  return "none";
+}
+
+const std::string bar = R"(geometry = "axisymmetric"
+cell_size = "0.3175 mm"
+end_time = "80 us"
+
+[[solid]]
+name = "bar"
+material = "copper_ofhc_mts.toml"
+temperature = "295 K"
+velocity = [0, "-190 m/s"]
+shape = { cylinder = { start = [0, 0], end = [0, "25.4 mm"], radius = "3.81 mm" } }
+
+[[boundary]]
+kind = "rigid_wall"
+axis = "y"
+position = 0
+side = "above"
+)";
+
+// Every key, each with another value than its default.
+const std::string everything = R"(title = "Everything \"at once\""
+geometry = "three_dimensional"
+cell_size = "1 mm"
+end_time = "10 us"
+gravity = [0, 0, -9.81]
+[numerics]
+basis = "ugimp"
+stress_timing = "usl"
+particle_velocity = "flip"
+filter_time = 20
+courant = 0.25
+most_volume_change = 0.05
+growth = 1.05
+first_step = "1 ns"
+least_step = "1 ps"
+trimming = 0.1
+seed = 7
+[[solid]]
+name = "target"
+material = "steel_hy100.toml"
+temperature = "600 K"
+shape = { difference = { from = { box = { lower = [-0.01, 0, 0], upper = [0.01, 0.01, 0.01] } }, without = [ { sphere = { centre = [0, 0.01, 0], radius = "3 mm", inner_radius = "1 mm" } } ] } }
+porosity = { law = "gaussian", mean = 0.005, standard_deviation = 0.001, upper = 0.02 }
+strength = { median = 0.9, weibull_modulus = 12, reference_volume = "1 cm^3" }
+particles_per_direction = 3
+locking_cure = false
+velocity = { translation = [1, 2, 3], rotation = [0, 0, "100 1/s"], centre = [0, 0, "5 mm"], radial = "2 m/s", radial_rate = "3 1/s" }
+[[solid]]
+name = "rod"
+material = "copper_ofhc_johnson_cook.toml"
+temperature = "300 K"
+shape = { union = [ { tube = { start = [0, 0.02, 0], end = [0, 0.03, 0], radius = 0.002, inner_radius = 0.001 } }, { cone = { start = [0, 0.01, 0], end = [0, 0.02, 0], start_radius = 0, end_radius = 0.002 } }, { intersection = [ { cylinder = { start = [0, 0.03, 0], end = [0, 0.04, 0], radius = 0.002 } }, { box = { lower = [0, 0.03, 0], upper = [1, 1, 1] } } ] } ] }
+[[boundary]]
+kind = "velocity"
+axis = "z"
+position = "-3 mm"
+side = "above"
+name = "piston"
+velocity = { time = [0, "1 us"], value = ["100 m/s", 0] }
+[[boundary]]
+kind = "rigid_wall"
+axis = "x"
+position = "12 mm"
+side = "below"
+friction = 0.1
+[[load]]
+body = "target"
+region = { sphere = { centre = [0, 0, 0], radius = 0.1 } }
+pressure = { time = [0, "5 us"], value = ["10 MPa", 0] }
+[[load]]
+body = "rod"
+traction = [0, "1 MPa", 0]
+amplitude = 0.5
+[[gauge]]
+name = "line"
+kind = "line"
+fields = ["velocity", "stress_xx"]
+from = [0, 0, 0]
+to = [0, "1 mm", 0]
+moves = false
+body = "rod"
+axis = "z"
+side = "below"
+[[measure]]
+kind = "diameter_at"
+name = "waist"
+body = "rod"
+axis = "z"
+at = 0.5
+measured = "4 mm"
+[[measure]]
+kind = "profile_error"
+body = "rod"
+profile = "profile.csv"
+[output]
+history_interval = "1 us"
+snapshot_interval = "2 us"
+checkpoint_interval = "3 us"
+checkpoint_steps = 400
+checkpoint_wall = "5 min"
+figure_field = "temperature"
+figures = false
+[gates]
+residual = 1e-9
+numerical = 0.5
+fastest = "3 km/s"
+)";
+
+TEST(CaseReader, ReadsABarAsWritten) {
+  const Case c = read_case(written(bar));
+  EXPECT_EQ(c.title, "case");
+  EXPECT_EQ(c.geometry, Geometry::axisymmetric);
+  EXPECT_EQ(c.dimensions(), 2);
+  EXPECT_EQ(c.cell_size, 0.3175e-3);
+  EXPECT_EQ(c.end_time, 80e-6);
+  ASSERT_EQ(c.bodies.size(), 1u);
+  EXPECT_EQ(c.bodies[0].velocity.translation, (Vector{0, -190, 0}));
+  EXPECT_EQ(c.bodies[0].temperature, 295);
+  EXPECT_EQ(c.bodies[0].material.material.name, "OFHC copper, annealed (mechanical threshold stress)");
+  const Cone& cylinder = std::get<Cone>(c.bodies[0].shape->form);
+  EXPECT_EQ(cylinder.end, (Vector{0, 0.0254, 0}));
+  EXPECT_EQ(cylinder.start_radius, 0.00381);
+  EXPECT_EQ(cylinder.end_radius, 0.00381);
+  ASSERT_EQ(c.boundaries.size(), 1u);
+  EXPECT_EQ(c.boundaries[0].name, "rigid_wall_y_above");
+  EXPECT_EQ(c.numerics.courant, 0.0);
+}
+
+TEST(CaseReader, ReadsEveryKey) {
+  const Case c = read_case(written(everything));
+  EXPECT_EQ(c.title, "Everything \"at once\"");
+  EXPECT_EQ(c.gravity, (Vector{0, 0, -9.81}));
+  EXPECT_EQ(c.numerics.basis, Basis::ugimp);
+  EXPECT_EQ(c.numerics.stress_timing, StressTiming::usl);
+  EXPECT_EQ(c.numerics.particle_velocity, ParticleVelocity::flip);
+  EXPECT_EQ(c.numerics.least_step, 1e-12);
+  EXPECT_EQ(c.numerics.seed, 7u);
+  const BodyConfig& target = c.bodies.at(0);
+  EXPECT_EQ(std::get<porosity::initial::Gaussian>(target.porosity.value()).mean, 0.005);
+  EXPECT_EQ(target.strength.value().reference_volume, 1e-6);
+  EXPECT_EQ(target.velocity.rotation, (Vector{0, 0, 100}));
+  EXPECT_EQ(target.velocity.radial_rate, 3.0);
+  EXPECT_EQ(target.particles_per_direction, 3);
+  EXPECT_FALSE(target.locking_cure);
+  EXPECT_EQ(std::get<Difference>(target.shape->form).without.size(), 1u);
+  EXPECT_EQ(std::get<Union>(c.bodies.at(1).shape->form).parts.size(), 3u);
+  EXPECT_EQ(c.boundaries.at(0).velocity(0.5e-6), 50.0);
+  EXPECT_EQ(c.boundaries.at(1).friction, 0.1);
+  EXPECT_EQ(c.loads.at(0).pressure.value()(2.5e-6), 5e6);
+  EXPECT_TRUE(c.loads.at(0).region);
+  EXPECT_EQ(c.loads.at(1).traction, (Vector{0, 1e6, 0}));
+  EXPECT_EQ(c.loads.at(1).amplitude.value()(0.0), 0.5);
+  EXPECT_EQ(c.gauges.at(0).fields, (std::vector<std::string>{"velocity", "stress_xx"}));
+  EXPECT_FALSE(c.gauges.at(0).moves);
+  EXPECT_EQ(c.gauges.at(0).side, Side::below);
+  EXPECT_EQ(c.measures.at(0).measured, 0.004);
+  EXPECT_EQ(c.measures.at(1).profile, folder() / "profile.csv");
+  EXPECT_EQ(c.output.checkpoint_wall, 300.0);
+  EXPECT_EQ(c.output.figure_field, "temperature");
+  EXPECT_EQ(c.gates.fastest, 3000.0);
+}
+
+std::string without_comments(const std::string& text) {
+  std::string result;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = text.substr(begin, end - begin);
+    result += line.substr(0, line.find("  # ")) + '\n';
+    begin = end + 1;
+  }
+  return result;
+}
+
+TEST(CaseReader, AWrittenCaseReadsBackToTheSame) {
+  for (const std::string& text : {bar, everything}) {
+    const std::string once = write_case(read_case(written(text)));
+    EXPECT_EQ(write_case(read_case(written(once, "again.toml"))), once);
+  }
+}
+
+TEST(CaseReader, AWrittenCaseHoldsEveryKey) {
+  // The text that is written is what the comparison above rests on: no key may be missing from it.
+  const std::string text = without_comments(write_case(read_case(written(everything))));
+  for (const KeyDescription& key : all_keys()) {
+    if (key.path.find("cylinder") != std::string::npos || key.path.find("tube") != std::string::npos)
+      continue;                                          // written as cones
+    if (key.path == "solid.material_changes") continue;  // they are in the material
+    const std::string name = key.path.substr(key.path.rfind('.') + 1);
+    const bool found = text.find(name + " = ") != std::string::npos || text.find('[' + name + ']') != std::string::npos ||
+                       text.find('.' + name + ']') != std::string::npos;
+    EXPECT_TRUE(found) << key.path;
+  }
+}
+
+TEST(CaseReader, OverridesReachIntoMaterialFiles) {
+  const auto strength = [](const Case& c) {
+    return std::get<flow_stress::MechanicalThresholdStress>(c.bodies.at(0).material.material.flow_stress.value())
+        .athermal_stress;
+  };
+  EXPECT_EQ(strength(read_case(written(bar))), 40e6);
+  EXPECT_EQ(strength(read_case(written(bar), {"solid.0.material.flow_stress.athermal_stress=50 MPa"})), 50e6);
+  std::string changed = bar;
+  changed.insert(changed.find("temperature"), "material_changes = [\"flow_stress.athermal_stress = 45 MPa\"]\n");
+  EXPECT_EQ(strength(read_case(written(changed))), 45e6);
+  // The command line has the last word.
+  EXPECT_EQ(strength(read_case(written(changed), {"solid.0.material.flow_stress.athermal_stress=50 MPa"})), 50e6);
+  EXPECT_EQ(strength(read_case(written(changed), {"solid.0.material_changes=[\"flow_stress.athermal_stress = 55 MPa\"]"})),
+            55e6);
+  EXPECT_EQ(read_case(written(bar), {"solid.0.velocity=[0, -200]", "cell_size=0.5 mm"}).bodies[0].velocity.translation[1],
+            -200);
+}
+
+/// A change of the bar that makes it wrong, and the message.
+struct Hostile {
+  const char* found;  // text that is replaced
+  const char* by;
+  const char* message;
+};
+
+TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
+  const std::vector<Hostile> all = {
+      {"cell_size = \"0.3175 mm\"\n", "",
+       "cell_size: missing: width of a cell of the grid; give a number in m or a text such as \"25.4 mm\", > 0"},
+      {"80 us", "0 us", "case.toml:3:12: end_time: \"0 us\" is out of range; it must be > 0 (in s)"},
+      {"80 us", "80 mm",
+       "case.toml:3:12: end_time: \"80 mm\" is not a time: \"mm\" measures a length; give a number in s or a text such as \"20 "
+       "us\""},
+      {"axisymmetric", "axisymetric",
+       "case.toml:1:12: geometry: \"axisymetric\" is unknown; it must be one of plane, axisymmetric, three_dimensional; did "
+       "you mean \"axisymmetric\"?"},
+      {"cell_size", "cellsize", "case.toml:2:1: cellsize: unknown key; did you mean \"cell_size\"?"},
+      {"[0, \"-190 m/s\"]", "[0, 0, \"-190 m/s\"]",
+       "case.toml:9:12: solid.0.velocity: the list has 3 elements; give a list of 2 elements, each a number in m/s or a text "
+       "such as \"4.5 km/s\""},
+      {"[0, \"-190 m/s\"]", "[1, \"-190 m/s\"]",
+       "case.toml:9:12: solid.0.velocity: in the axisymmetric geometry no body moves along r as a whole; give 0, or `radial`"},
+      {"[0, \"-190 m/s\"]", "{ rotation = [0, 0, 1] }",
+       "case.toml:9:12: solid.0.velocity: in the axisymmetric geometry nothing rotates"},
+      {"copper_ofhc_mts.toml", "copper_ofhc_mtx.toml", "did you mean \"copper_ofhc_mts.toml\"?"},
+      {"name = \"bar\"", "name = \"a bar\"",
+       "case.toml:6:8: solid.0.name: \"a bar\": it becomes part of file names; give letters, digits, _ and -"},
+      {"cylinder", "cylindre",
+       "solid.0.shape.cylindre: \"cylindre\" is no shape; it must be one of box, cylinder, cone, sphere, tube, union, "
+       "intersection, difference; did you mean \"cylinder\"?"},
+      {"{ cylinder = { start = [0, 0], end = [0, \"25.4 mm\"], radius = \"3.81 mm\" } }", "3",
+       "case.toml:10:9: solid.0.shape: this is the number 3; a table [solid.0.shape] is required"},
+      {"start = [0, 0]", "start = [1, 0]",
+       "solid.0.shape.cylinder.start: in the axisymmetric geometry it lies on the axis; give r = 0"},
+      {"\"25.4 mm\"]", "0]", "solid.0.shape.cylinder.end: it is where the start is; a solid of revolution has a length"},
+      {"3.81 mm\" } }", "0.2 mm\" } }",
+       "case.toml:10:9: solid.0.shape: along x it is 0.0002 m wide, less than one cell of 0.0003175 m"},
+      {"{ cylinder = { start = [0, 0], end = [0, \"25.4 mm\"], radius = \"3.81 mm\" } }",
+       "{ box = { lower = [0, 1], upper = [1, 0] } }",
+       "solid.0.shape.box.upper: along y it is 0 m, not above the lower corner's 1 m"},
+      {"{ cylinder = { start = [0, 0], end = [0, \"25.4 mm\"], radius = \"3.81 mm\" } }",
+       "{ intersection = [ { box = { lower = [0, 0], upper = [1, 1] } }, { box = { lower = [2, 0], upper = [3, 1] } } ] }",
+       "solid.0.shape: it fills nothing: its parts do not meet"},
+      {"{ cylinder = { start = [0, 0], end = [0, \"25.4 mm\"], radius = \"3.81 mm\" } }", "{ union = [] }",
+       "solid.0.shape.union: a list of shapes is required, with at least one"},
+      {"position = 0", "position = \"-1 mm\"",
+       "case.toml:15:12: boundary.0.position: -0.001 m is on no plane of nodes; the nearest are -0.00127 m and -0.0009525 m"},
+      {"position = 0", "position = \"3.175 mm\"",
+       "case.toml:16:8: boundary.0.side: solid \"bar\" reaches to y = 0 m, below the boundary at 0.003175 m; the bodies must "
+       "be above it"},
+      {"position = 0", "position = \"317.5 km\"",
+       "boundary.0.side: solid \"bar\" reaches to y = 0 m, below the boundary at 317500 m"},
+      {"axis = \"y\"", "axis = \"z\"", "case.toml:14:8: boundary.0.axis: there is no z in two dimensions; give x or y"},
+      {"rigid_wall", "velocity", "boundary.0.velocity: missing: how the boundary moves, for its kind is velocity"},
+      {"\"rigid_wall\"", "\"symmetry\"\nfriction = 0.2",
+       "case.toml:14:12: boundary.0.friction: it would be ignored: the kind is not rigid_wall"},
+      {"side = \"above\"\n", "side = \"above\"\n[[measure]]\nkind = \"final_length\"\nbody = \"bat\"",
+       "case.toml:19:8: measure.0.body: there is no solid \"bat\"; there is bar; did you mean \"bar\"?"},
+      {"side = \"above\"\n", "side = \"above\"\n[[measure]]\nkind = \"diameter_at\"",
+       "measure.0.at: missing: where along the initial length, > 0 and up to 1"},
+      {"side = \"above\"\n", "side = \"above\"\n[[measure]]\nkind = \"profile_error\"\nprofile = \"bad_profile.csv\"",
+       "bad_profile.csv:1:1: there is no column \"height\"; there are radius, z"},
+      {"side = \"above\"\n", "side = \"above\"\n[[measure]]\nkind = \"final_length\"\n[[measure]]\nkind = \"final_length\"",
+       "measure.1.name: the name \"final_length\" is given twice; give each its own"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"point\"\nfrom = [0, 0]\nfields = [\"presure\"]",
+       "case.toml:21:10: gauge.0.fields: \"presure\" cannot be recorded; it must be one of position, velocity,"},
+      {"side = \"above\"\n", "side = \"above\"\n[[load]]\nregion = { sphere = { centre = [0, 0], radius = 1 } }",
+       "load.0: nothing acts; give pressure or traction"},
+      {"temperature = \"295 K\"", "temperature = \"295 K\"\nporosity = { law = \"constant\", value = 0.01 }",
+       "solid.0.porosity: it would be ignored: the material has no [porosity] table"},
+      {"temperature = \"295 K\"", "temperature = \"295 K\"\nmaterial_changes = [\"flow_stress.beta = 1\"]",
+       "case.toml: solid.0.material_changes: flow_stress.beta: unknown key"},
+      {"[[boundary]]", "[numerics]\nseed = -1\n[[boundary]]",
+       "numerics.seed: -1 is out of range; it must be a whole number between 0 and 2147483647"},
+  };
+  for (const Hostile& hostile : all) {
+    std::string text = bar;
+    const std::size_t at = text.find(hostile.found);
+    ASSERT_NE(at, std::string::npos) << hostile.found;
+    text.replace(at, std::string(hostile.found).size(), hostile.by);
+    EXPECT_NE(problems_of(text).find(hostile.message), std::string::npos)
+        << "wanted: " << hostile.message << "\ngot:    " << problems_of(text);
+  }
+}
+
+TEST(CaseReader, ReportsAllProblemsAtOnce) {
+  const std::string text = R"(geometry = "axisymmetric"
+cell_size = -1
+[[solid]]
+name = "bar"
+material = "nothing.toml"
+shape = { ball = {} }
+[[measure]]
+kind = "weight"
+)";
+  const std::string what = problems_of(text);
+  for (const char* key : {"cell_size: ", "end_time: missing", "solid.0.material: there is no material file",
+                          "solid.0.shape.ball: ", "solid.0.temperature: missing", "measure.0.kind: \"weight\" is unknown"})
+    EXPECT_NE(what.find(key), std::string::npos) << key << "\n" << what;
+  EXPECT_EQ(std::count(what.begin(), what.end(), '\n'), 5) << what;  // these six and no follow-ups
+}
+
+TEST(CaseReader, ACaseHasABody) {
+  for (const char* none : {"", "solid = []\n"})
+    EXPECT_EQ(problems_of(std::string(none) + "geometry = \"plane\"\ncell_size = 1\nend_time = 1\n"),
+              "case.toml: there is no [[solid]]; a case has at least one");
+}
+
+TEST(CaseReader, ABodyMayBeCutAtABoundary) {
+  // The bounds of a difference are those of the whole; only what is left counts.
+  const std::string text = R"(geometry = "plane"
+cell_size = 0.1
+end_time = 1
+[[solid]]
+name = "half"
+material = "copper_ofhc_mts.toml"
+temperature = "295 K"
+shape = { difference = { from = { sphere = { centre = [0, 0], radius = 1 } }, without = [ { box = { lower = [-2, -2], upper = [0, 2] } } ] } }
+[[boundary]]
+kind = "symmetry"
+axis = "x"
+position = 0
+side = "above"
+)";
+  EXPECT_EQ(problems_of(text), "none");
+}
+
+TEST(CaseReader, EveryTaylorCaseOfTheProjectIsReadAndMeetsItsExperiment) {
+  int count = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(BRISANCE_SOURCE_DIR) / "data/cases")) {
+    if (!entry.path().filename().string().starts_with("taylor_")) continue;
+    ++count;
+    const Case c = read_case(entry.path());
+    ASSERT_EQ(c.measures.size(), 5u) << entry.path();
+    const Shape* shape = c.bodies.at(0).shape.get();
+    if (const auto* cut = std::get_if<Intersection>(&shape->form)) shape = cut->parts.at(0).get();
+    const Cone& cylinder = std::get<Cone>(shape->form);
+    // Twelve cells along the radius, the rear face of the measured profile where the measured length says, within the error of
+    // its digitisation, 2 %.
+    EXPECT_NEAR(cylinder.start_radius / c.cell_size, 12.0, 1e-9) << entry.path();
+    const std::vector<double> height = CsvFile::load(c.measures.at(4).profile).numbers("height", Unit::m);
+    const double length = c.measures.at(0).measured.value();
+    EXPECT_NEAR(*std::max_element(height.begin(), height.end()), length, 0.02 * length) << entry.path();
+    EXPECT_LT(length, cylinder.end[1]) << entry.path();
+    EXPECT_GT(c.measures.at(1).measured.value(), c.measures.at(2).measured.value()) << entry.path();
+  }
+  EXPECT_EQ(count, 24);
+}
+
+TEST(Keys, DescribesByPathAndByName) {
+  std::string suggestion;
+  const auto one = describe_key("boundary.friction", suggestion);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].meaning, "Coulomb's coefficient, of kind rigid_wall");
+  EXPECT_EQ(one[0].default_value, "0");
+  const auto by_name = describe_key("cell_size", suggestion);
+  ASSERT_EQ(by_name.size(), 1u);
+  EXPECT_EQ(by_name[0].default_value, "required");
+  EXPECT_EQ(by_name[0].values, "a number in m or a text such as \"25.4 mm\", > 0");
+  EXPECT_EQ(describe_key("gates", suggestion).size(), 4u);  // the table and its three keys
+  EXPECT_EQ(describe_key("friction", suggestion).size(), 1u);
+  EXPECT_TRUE(describe_key("frictoin", suggestion).empty());
+  EXPECT_EQ(suggestion, "; did you mean \"friction\"?");
+}
+
+}  // namespace
+}  // namespace brisance::simulator

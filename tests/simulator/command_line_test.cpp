@@ -1,0 +1,159 @@
+// brisance as its users meet it: commands, files, messages and exit codes.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <cstdlib>
+
+#include "models/programs/progress.hpp"
+#include "simulator/commands.hpp"
+#include "tests/simulator/small_bar.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+struct Answer {
+  int code;
+  std::string out, err;
+};
+
+Answer call(std::vector<std::string> words) {
+  words.insert(words.begin(), "brisance");
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = run_command_line(static_cast<int>(argv.size()), argv.data());
+  std::fflush(stdout);
+  std::fflush(stderr);
+  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const std::string no_figures = "[output]\nfigures = false\n";
+
+TEST(RunCommand, LeavesACompleteDirectoryAndSaysWhatCameOut) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(directory / "bar.toml", small_bar("[[measure]]\nkind = \"final_length\"\n"));
+  const Answer a = call({"run", file.string(), "-o", (directory / "run").string(), "--threads", "1", "--set", "end_time=1 us"});
+  EXPECT_EQ(a.code, done) << a.err;
+  EXPECT_TRUE(contains(a.out, "final_length")) << a.out;
+  for (const char* name : {"case.toml", "log.txt", "history.csv", "summary.json", "bar_particles_000000.hdf",
+                           "bar_particles.hdf.series", "checkpoint_a.h5", "energy.png", "field.png", "profile_bar.png"})
+    EXPECT_TRUE(fs::exists(directory / "run" / name)) << name << "\n" << text_of(directory / "run" / "log.txt");
+}
+
+TEST(RunCommand, ACaseWithMistakesIsBadInput) {
+  const fs::path directory = scratch();
+  const Answer a = call({"run", write_text(directory / "bar.toml", small_bar("[numerics]\ncourrant = 0.3\n")).string()});
+  EXPECT_EQ(a.code, bad_input);
+  EXPECT_TRUE(contains(a.err, "courant")) << a.err;
+  EXPECT_EQ(call({"run", (directory / "none.toml").string()}).code, bad_input);
+  EXPECT_EQ(call({"fly"}).code, bad_input);
+  EXPECT_EQ(call({"--help"}).code, done);
+}
+
+TEST(RunCommand, RefusesADirectoryThatHoldsSomethingElse) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
+                    run = (directory / "run").string();
+  fs::create_directories(run);
+  write_text(directory / "run" / "thesis.tex", "years of work");
+  const Answer foreign = call({"run", file, "-o", run, "--set", "end_time=0.2 us"});
+  EXPECT_EQ(foreign.code, bad_input);
+  EXPECT_TRUE(contains(foreign.err, "holds files that are no run")) << foreign.err;
+  EXPECT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.2 us", "--overwrite"}).code, done);
+  EXPECT_EQ(text_of(directory / "run" / "thesis.tex"), "years of work");
+  EXPECT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.2 us"}).code, done) << "the same case again";
+  const Answer other = call({"run", file, "-o", run, "--set", "end_time=0.3 us"});
+  EXPECT_EQ(other.code, bad_input);
+  EXPECT_TRUE(contains(other.err, "run of another case")) << other.err;
+  EXPECT_EQ(call({"run", file, "-o", file}).code, bad_input) << "a file is no directory";
+}
+
+TEST(RunCommand, ADirectoryThatCannotBeMadeIsNamed) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string();
+  const Answer a = call({"run", file, "-o", "/proc/brisance/run"});
+  EXPECT_EQ(a.code, failed_while_running);
+  EXPECT_TRUE(contains(a.err, "/proc/brisance/run: cannot be made")) << a.err;
+}
+
+TEST(RunCommand, AFullDiskEndsTheRunAndNamesTheFile) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
+                    run = (directory / "run").string();
+  ASSERT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.2 us"}).code, done);
+  fs::remove(directory / "run" / "log.txt");
+  fs::rename(directory / "run" / "history.csv", directory / "run" / "kept.csv");
+  // Rows go to a device that is always full.
+  fs::create_symlink("/dev/full", directory / "run" / "history.csv.part");
+  const Answer a = call({"resume", run, "--until", "4e-7"});
+  EXPECT_EQ(a.code, failed_while_running);
+  EXPECT_TRUE(contains(a.err, "history.csv")) << a.err;
+  EXPECT_TRUE(contains(a.err, "last checkpoint: ")) << a.err;
+}
+
+TEST(ResumeCommand, GoesOnUntilALaterTimeAndReportTellsTheSame) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures + "[[measure]]\nkind = \"final_length\"\n"))
+                               .string(),
+                    run = (directory / "run").string();
+  ASSERT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.5 us"}).code, done);
+  const Answer resumed = call({"resume", run, "--until", "1e-6"});
+  EXPECT_EQ(resumed.code, done) << resumed.err;
+  const Answer report = call({"report", run});
+  EXPECT_EQ(report.code, done) << report.err;
+  const auto line = [](const std::string& text) { return text.substr(text.find("final_length"), 60); };
+  EXPECT_EQ(line(report.out), line(resumed.out));
+  EXPECT_TRUE(fs::exists(directory / "run" / "energy.png"));
+  EXPECT_EQ(call({"resume", directory.string()}).code, bad_input);
+}
+
+TEST(RunCommand, AnInterruptedRunWritesACheckpointAndGoesOn) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
+                    run = (directory / "run").string();
+  catch_interrupts();
+  raise(SIGTERM);
+  const Answer a = call({"run", file, "-o", run});
+  forget_interrupt();
+  EXPECT_EQ(a.code, interrupted);
+  EXPECT_TRUE(contains(a.err, "brisance resume " + run)) << a.err;
+  EXPECT_EQ(call({"resume", run, "--until", "2e-7"}).code, done);
+}
+
+TEST(CheckCommand, TellsSizeAndTimeAndWarnsOfThinBodies) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar()).string();
+  const Answer fine = call({"check", file});
+  EXPECT_EQ(fine.code, done) << fine.err;
+  EXPECT_TRUE(contains(fine.out, "240 particles")) << fine.out;
+  EXPECT_FALSE(contains(fine.out, "warning")) << fine.out;
+  const Answer coarse = call({"check", file, "--set", "cell_size=3.2 mm", "--set", "solid.0.velocity=[0, -9000]"});
+  EXPECT_TRUE(contains(coarse.out, "warning: bar: the diameter is 2 cells")) << coarse.out;
+  EXPECT_TRUE(contains(coarse.out, "faster than sound")) << coarse.out;
+}
+
+TEST(DescribeCommand, ExplainsKeysAndSuggestsNearOnes) {
+  const Answer a = call({"describe", "cell_size"});
+  EXPECT_EQ(a.code, done);
+  EXPECT_TRUE(contains(a.out, "must be given")) << a.out;
+  const Answer wrong = call({"describe", "cel_size"});
+  EXPECT_EQ(wrong.code, bad_input);
+  EXPECT_TRUE(contains(wrong.err, "did you mean \"cell_size\"?")) << wrong.err;
+}
+
+TEST(ListCommand, NamesMaterialsAndMeasures) {
+  const Answer a = call({"list"});
+  EXPECT_EQ(a.code, done);
+  for (const char* name : {"rigid_wall", "mushroom_diameter", "copper_ofhc_johnson_cook.toml", "cylinder"})
+    EXPECT_TRUE(contains(a.out, name)) << name;
+}
+
+}  // namespace
+}  // namespace brisance::simulator

@@ -1,0 +1,68 @@
+#pragma once
+// A small copper bar against a rigid wall, as a case file in a directory of the test's own.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "simulator/simulation.hpp"
+
+namespace brisance::simulator {
+
+namespace fs = std::filesystem;
+
+/// A fresh directory of this test.
+inline fs::path scratch() {
+  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+  const fs::path directory = fs::path(testing::TempDir()) / (std::string("brisance_") + info->test_suite_name() + "_" +
+                                                             info->name() + "_" + std::to_string(getpid()));
+  fs::remove_all(directory);
+  fs::create_directories(directory);
+  return directory;
+}
+
+inline fs::path write_text(const fs::path& path, const std::string& text) {
+  std::ofstream(path) << text;
+  return path;
+}
+
+inline std::string text_of(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// 240 particles for about 90 steps.
+inline std::string small_bar(const std::string& more = "") {
+  return "title = \"Small bar\"\ngeometry = \"axisymmetric\"\ncell_size = \"0.8 mm\"\nend_time = \"7 us\"\n"
+         "[[solid]]\nname = \"bar\"\nshape = {cylinder = {start = [0, 0], end = [0, \"12 mm\"], radius = \"3.2 mm\"}}\n"
+         "temperature = \"298 K\"\nvelocity = [0, \"-190 m/s\"]\nmaterial = \"copper_ofhc_johnson_cook.toml\"\n"
+         "[[boundary]]\nkind = \"rigid_wall\"\naxis = \"y\"\nposition = 0\nside = \"above\"\n" +
+         more;
+}
+
+/// Every bit of the particles' state, in the order of their ids: where they stand in memory has no meaning.
+inline std::vector<std::uint64_t> bits_of(const Simulation& s) {
+  std::vector<std::uint64_t> bits;
+  for (const Body& body : s.bodies) {
+    const Particles& ps = body.particles;
+    std::vector<int> order(static_cast<std::size_t>(ps.size));
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return ps.id[static_cast<std::size_t>(a)] < ps.id[static_cast<std::size_t>(b)]; });
+    for (const int p : order) {
+      bits.push_back(ps.id[static_cast<std::size_t>(p)]);
+      for (const Column& c : ps.columns()) bits.push_back(std::bit_cast<std::uint64_t>(ps.set(c.set).at(c.index, p)));
+    }
+  }
+  return bits;
+}
+
+}  // namespace brisance::simulator
