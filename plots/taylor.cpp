@@ -131,6 +131,84 @@ std::string table(const std::vector<Done>& runs, const std::string& commit) {
   return text;
 }
 
+/// A statement about one or two runs that must hold, with the number it rests on.
+struct Check {
+  std::string text;
+  double value, limit;
+  bool holds() const { return value <= limit; }
+};
+
+/// What the runs at hand allow to check. The limits are what a good code reaches on these tests with published constants.
+std::vector<Check> checks(const std::vector<Done>& runs) {
+  std::vector<Check> all;
+  const auto run_named = [&](const std::string& name) -> const Done* {
+    const auto at = std::find_if(runs.begin(), runs.end(), [&](const Done& d) { return d.entry.name == name; });
+    return at == runs.end() ? nullptr : &*at;
+  };
+  const auto deviation = [&](const Done& d, const char* measure) { return std::abs(*find(d.summary, measure)->deviation()); };
+  const auto value = [&](const Done& d, const char* measure) { return find(d.summary, measure)->value; };
+  if (const Done* a1 = run_named("taylor_4340_208_johnson_cook")) {
+    all.push_back({"A1: length within 1 %", deviation(*a1, "final_length"), 0.01});
+    all.push_back({"A1: diameter within 5 %", deviation(*a1, "mushroom_diameter"), 0.05});
+    all.push_back({"A1: diameter at 0.2 L within 3 %", deviation(*a1, "diameter_at_0.2"), 0.03});
+  }
+  if (const Done* d = run_named("taylor_copper_190_mts"))
+    all.push_back({"A3: D at most 4 % with threshold stress", mean_error(d->summary), 0.04});
+  if (const Done* d = run_named("taylor_copper_190_johnson_cook"))
+    all.push_back({"A3: D at most 8.5 % with Johnson-Cook", mean_error(d->summary), 0.085});
+  const std::pair<const char*, const char*> copper[] = {{"A3", "taylor_copper_190"},
+                                                        {"A4", "taylor_copper_130"},
+                                                        {"A5", "taylor_copper_146"},
+                                                        {"A7", "taylor_copper_etp_188_718k"},
+                                                        {"A8", "taylor_copper_etp_277"}};
+  for (const auto& [id, stem] : copper) {
+    const Done *jc = run_named(std::string(stem) + "_johnson_cook"), *mts = run_named(std::string(stem) + "_mts");
+    if (jc && mts)
+      all.push_back({fmt::format("{}: D with threshold stress over D with Johnson-Cook below 1", id),
+                     mean_error(mts->summary) / mean_error(jc->summary), 1.0});
+  }
+  for (const char* name : {"taylor_4340_208_johnson_cook", "taylor_copper_190_johnson_cook", "taylor_copper_190_mts"}) {
+    const Done *coarse = run_named(std::string(name) + "_r6"), *middle = run_named(name),
+               *fine = run_named(std::string(name) + "_r24");
+    if (!middle || !fine) continue;
+    const double change = value(*fine, "final_length") / value(*middle, "final_length") - 1.0;
+    const bool mts = std::string(name).ends_with("mts");
+    std::string text = fmt::format("{}: change of length from R/h = 12 to 24", name);
+    if (coarse) {
+      // Richardson: the error falls by the same factor with each halving.
+      const double L1 = value(*coarse, "final_length"), L2 = value(*middle, "final_length"), L3 = value(*fine, "final_length");
+      const double factor = (L1 - L2) / (L2 - L3);
+      text += factor > 1.0
+                  ? fmt::format("; order {:.2f}, limit of length {:.3f} mm", std::log2(factor),
+                                1e3 * (L3 - (L2 - L3) / (factor - 1.0)))
+                  : fmt::format("; not monotonic (6: {:.3f}, 12: {:.3f}, 24: {:.3f} mm)", 1e3 * L1, 1e3 * L2, 1e3 * L3);
+    }
+    all.push_back({text, std::abs(change), mts ? 0.008 : 0.005});
+  }
+  const std::pair<const char*, const char*> quarters[] = {{"taylor_4340_208_johnson_cook", "taylor_4340_208_quarter"},
+                                                          {"taylor_copper_190_mts", "taylor_copper_190_quarter_mts"}};
+  for (const auto& [flat, solid] : quarters) {
+    const Done *axisymmetric = run_named(flat), *quarter = run_named(solid);
+    if (!axisymmetric || !quarter) continue;
+    for (const auto& [measure, limit] : {std::pair{"final_length", 0.005}, std::pair{"mushroom_diameter", 0.015}})
+      all.push_back({fmt::format("{}: {} against axisymmetric", solid, measure),
+                     std::abs(value(*quarter, measure) / value(*axisymmetric, measure) - 1.0), limit});
+  }
+  for (const Done& d : runs) {
+    if (d.entry.name.ends_with("_r6")) continue;
+    all.push_back({fmt::format("{}: energy in numerical books over the initial kinetic energy", d.entry.name),
+                   std::abs(d.summary.books.balance.numerical()) / d.summary.books.peak_kinetic, 0.01});
+  }
+  return all;
+}
+
+std::string table(const std::vector<Check>& all) {
+  std::string text = "\n| check | measured | limit | |\n|---|---|---|---|\n";
+  for (const Check& c : all)
+    text += fmt::format("| {} | {:.4f} | {} | {} |\n", c.text, c.value, c.limit, c.holds() ? "holds" : "MISSED");
+  return text;
+}
+
 Figure figure(const std::vector<Done>& runs) {
   Figure figure{"Taylor impacts: computed and measured profiles", {}, 4, 380, 420};
   std::vector<std::string> tests;
@@ -191,13 +269,14 @@ int run_all(const std::vector<std::string>& names, bool full, const std::filesys
   }
   if (runs.empty()) throw std::invalid_argument("taylor: no run of that name; `--list` shows all");
   std::filesystem::create_directories(output);
-  const std::string text = table(runs, commit_hash());
+  const std::vector<Check> statements = checks(runs);
+  const std::string text = table(runs, commit_hash()) + table(statements);
   fmt::print("\n{}", text);
   const std::string stem = names.empty() ? (full ? "taylor_full" : "taylor") : "taylor_selected";
   std::ofstream(output / (stem + ".md")) << text;
   draw(figure(runs), output / (stem + ".png"));
   fmt::print("\nfigure: {}\n", (output / (stem + ".png")).string());
-  return 0;
+  return std::all_of(statements.begin(), statements.end(), [](const Check& c) { return c.holds(); }) ? 0 : 1;
 }
 
 }  // namespace

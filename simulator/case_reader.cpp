@@ -55,6 +55,7 @@ class CaseReader {
   Config read_struct(TableReader in) {
     Config config{};
     read_keys(in, config);
+    if constexpr (std::is_same_v<Config, OutputConfig>) check_figure_field(in, config.figure_field);
     return config;
   }
 
@@ -357,6 +358,16 @@ class CaseReader {
     for (const BodyConfig& body : case_.bodies) check_side(in, boundary, axis, body);
   }
 
+  /// Figures are coloured by one number of each particle.
+  void check_figure_field(TableReader& in, const std::string& field) {
+    std::vector<std::string_view> scalars;
+    for (const std::string_view name : gauge_fields)
+      if (name != "position" && name != "velocity") scalars.push_back(name);
+    if (std::find(scalars.begin(), scalars.end(), field) == scalars.end())
+      in.problem("figure_field",
+                 in_quotes(field) + " cannot be drawn; it must be one of " + listed(scalars) + did_you_mean(field, scalars));
+  }
+
   /// The plane of a boundary with a velocity stays where its nodes are, so what it moves must stay near.
   void check_stroke(TableReader& in, const BoundaryConfig& boundary) {
     constexpr int parts = 1000;
@@ -414,6 +425,11 @@ class CaseReader {
       if (std::find(gauge_fields.begin(), gauge_fields.end(), field) == gauge_fields.end())
         in.problem("fields", in_quotes(field) + " cannot be recorded; it must be one of " + listed(gauge_fields) +
                                  did_you_mean(field, gauge_fields));
+    if (gauge.kind == GaugeKind::plane)
+      for (std::size_t k = 0; k < dimensions(); ++k)
+        if (!(gauge.from[k] < gauge.to[k]))
+          in.problem("to",
+                     fmt::format("along {} the box ends before it begins; give it a thickness of about a cell", axis_names[k]));
     if (gauge.kind == GaugeKind::point) {
       if (gauge.to != Vector{}) in.problem("to", "it would be ignored: a point is where `from` says");
     } else if (gauge.from == gauge.to) {

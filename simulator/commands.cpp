@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "models/input/diagnostics.hpp"
+#include "models/input/units.hpp"
 #include "models/programs/progress.hpp"
 #include "simulator/case_reader.hpp"
 #include "simulator/dry_run.hpp"
@@ -26,7 +27,7 @@ struct Options {
   std::vector<std::string> overrides;
   int threads = 0;  // 0: as OpenMP chooses
   bool overwrite = false;
-  std::optional<double> until;
+  std::string until;  // a time in s, or with a unit
   std::string key;
 };
 
@@ -75,12 +76,22 @@ Case case_of_run(const Path& directory) {
   return read_case(directory / "case.toml");
 }
 
+std::optional<double> until_time(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  try {
+    const bool plain = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+    return to_si(plain ? text + " s" : text, Unit::s);
+  } catch (const UnitError& error) {
+    throw std::invalid_argument(fmt::format("--until {}: {}{}", text, error.what(), error.hint));
+  }
+}
+
 int resume_run(const Options& o) {
   use_threads(o.threads);
   const Case c = case_of_run(o.directory);
   Simulation s = set_up_or_refuse(c);
   catch_interrupts();
-  return tell(resume(c, s, {o.directory, o.until}), o.directory);
+  return tell(resume(c, s, {o.directory, until_time(o.until)}), o.directory);
 }
 
 int report_run(const Options& o) {
@@ -172,7 +183,8 @@ int run_command_line(int argc, char** argv) {
 
   CLI::App* resume_command = app.add_subcommand("resume", "Go on with a run from its last checkpoint");
   resume_command->add_option("DIR", o.directory, "directory of the run")->required();
-  resume_command->add_option("--until", o.until, "simulated time (s) at which to end, instead of the case's");
+  resume_command->add_option("--until", o.until,
+                             "simulated time at which to end, in s or such as \"100 us\", instead of the case's");
   add_threads(resume_command);
   resume_command->callback([&] { code = resume_run(o); });
 

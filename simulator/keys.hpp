@@ -39,10 +39,10 @@ constexpr void for_each_key(F&& f) {
 }
 
 /// What a gauge may record.
-inline constexpr std::array<std::string_view, 17> gauge_fields = {
-    "position",  "velocity",  "stress_xx", "stress_yy",   "stress_zz",      "stress_yz",
-    "stress_xz", "stress_xy", "pressure",  "temperature", "plastic_strain", "plastic_strain_rate",
-    "porosity",  "damage",    "energy",    "density",     "failure_cause"};
+inline constexpr std::array<std::string_view, 19> gauge_fields = {
+    "position",  "velocity", "stress_xx",     "stress_yy",      "stress_zz",           "stress_yz", "stress_xz",
+    "stress_xy", "pressure", "temperature",   "plastic_strain", "plastic_strain_rate", "porosity",  "damage",
+    "energy",    "density",  "failure_cause", "failure_time",   "von_mises_stress"};
 
 // Shapes: { <form> = {...} } ---------------------------------------------------------------------------------------------
 

@@ -40,6 +40,9 @@ std::int64_t count_particles(const Simulation& s) {
   return count;
 }
 
+/// What limits the steps that end a run: they may be as small as they have to be.
+constexpr std::string_view last_steps = "the end of the run";
+
 /// How often an interval fits into a time; what is due at a time depends on nothing else.
 std::int64_t count(double time, double interval) {
   return interval > 0.0 ? static_cast<std::int64_t>(std::floor(time / interval)) : 0;
@@ -73,8 +76,8 @@ class Gates {
     const double rounding =
         std::numeric_limits<double>::epsilon() * std::abs(b.internal) * std::sqrt(static_cast<double>(s.step + 1));
     require("residual", "energy that is in no book", b.residual, limits_.residual * energy + rounding, "J", s);
-    const double momentum =
-        std::sqrt(2.0 * books.mass * energy) + magnitude(books.boundary_momentum) + magnitude(books.external_momentum);
+    const double momentum = std::sqrt(2.0 * (books.mass + books.outflow_mass) * energy) + magnitude(books.boundary_momentum) +
+                            magnitude(books.external_momentum);
     require("residual", "momentum that is in no book", magnitude(b.momentum_residual), limits_.residual * momentum, "kg m/s",
             s);
     require("residual", "angular momentum that is in no book", magnitude(b.angular_momentum_residual),
@@ -92,6 +95,8 @@ class Gates {
   }
   static double reach(const Simulation& s) {
     double farthest = 0.0;
+    for (const Boundary& b : s.boundaries)  // what has left was booked there
+      if (b.kind == BoundaryKind::outflow) farthest = std::max(farthest, std::abs(b.position));
     for_each(s, [&](const Body&, const ParticleView& p) { farthest = std::max(farthest, magnitude(p.position())); });
     return farthest + s.grid.cell_size;
   }
@@ -131,7 +136,7 @@ class Run {
   RunResult begin() {
     log_.line(fmt::format("{}: {} particles, {} threads", case_.title, count_particles(s_), omp_get_max_threads()));
     return guarded([&] {
-      history_.emplace(options_.directory / "history.csv", gauges_.columns(), 0);
+      history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), 0);
       add_row();
       if (case_.output.snapshot_interval > 0.0) add_snapshot();
       loop();
@@ -150,7 +155,7 @@ class Run {
     row_time_ = restored.progress.row_time;
     last_checkpoint_ = restored.file;
     return guarded([&] {
-      history_.emplace(options_.directory / "history.csv", gauges_.columns(), restored.progress.history_rows);
+      history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), restored.progress.history_rows);
       loop();
     });
   }
@@ -207,8 +212,7 @@ class Run {
     StepSize size = next_step(s_, case_.numerics, end_);
     constexpr int most_halvings = 20;
     for (int halvings = 0;; ++halvings, size.dt *= 0.5) {
-      const bool is_last = s_.time + size.dt >= end_;
-      if (!(size.dt > 0.0) || !std::isfinite(size.dt) || (size.dt < case_.numerics.least_step && !is_last) ||
+      if (!(size.dt > 0.0) || !std::isfinite(size.dt) || (size.dt < case_.numerics.least_step && size.limit != last_steps) ||
           halvings > most_halvings)
         throw RunFailure(fmt::format(
             "step {} at {:.6g} s would have to be {:.4g} s{}; it is limited by {}{}", s_.step + 1, s_.time, size.dt,
@@ -330,9 +334,9 @@ StepSize next_step(const Simulation& s, const NumericsConfig& numerics, double e
   const double left = end_time - s.time;
   // Two steps of equal size instead of a very small last one.
   if (size.dt >= left)
-    size = {left, "the end of the run"};
+    size = {left, last_steps};
   else if (2.0 * size.dt > left)
-    size = {0.5 * left, "the end of the run"};
+    size = {0.5 * left, last_steps};
   return size;
 }
 

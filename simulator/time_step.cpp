@@ -36,7 +36,7 @@ StepOutcome advance_musl(Simulation& s, double dt, double dt_velocity) {
   broadcast_motion(s.grid, *s.domain);
   const ParticleResult particles = grid_to_particles(s, {dt, dt_velocity, true});
   share_momentum(s);
-  velocities_from_momentum(s, Touch::as_accelerated);
+  velocities_from_momentum(s, Touch::as_accelerated, s.time + 0.5 * dt);
   if (!deform(s, dt, &Particles::next_motion)) return StepOutcome::rejected;
   accept_motion(s, particles, nodes, dt);
   return StepOutcome::done;
@@ -56,7 +56,7 @@ StepOutcome advance_usl(Simulation& s, double dt, double dt_velocity) {
 StepOutcome advance_usf(Simulation& s, double dt, double dt_velocity) {
   particles_to_grid(s, Carry::motion);
   share_momentum(s);
-  velocities_from_momentum(s, Touch::in_sums);
+  velocities_from_momentum(s, Touch::in_sums, s.time - 0.5 * s.last_time_step);
   if (!deform(s, dt, &Particles::motion)) return StepOutcome::rejected;
   particles_to_grid(s, Carry::motion_and_force);
   share_momentum(s);

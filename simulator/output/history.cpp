@@ -31,15 +31,21 @@ Books books_of(const Simulation& s) {
   books.state = s.ledger.state;
   books.initial_internal = whole * s.ledger.initial_internal, books.peak_kinetic = whole * s.ledger.peak_kinetic;
   books.mass = whole * internal.mass;
+  books.outflow_mass = whole * s.ledger.outflow_mass, books.outflow_momentum = s.ledger.outflow.total().momentum;
   for (const Account& a : s.ledger.boundary) books.boundary_momentum = books.boundary_momentum + a.total().momentum;
   books.external_momentum = s.ledger.external.total().momentum;
+  for (std::size_t i = 0; i < s.boundaries.size(); ++i) {
+    Change done = s.ledger.boundary[i].total();
+    done.energy *= whole, done.momentum = whole * done.momentum;
+    books.boundaries.emplace_back(s.boundaries[i].name, done);
+  }
   Balance& b = books.balance;
   for (double* energy :
        {&b.kinetic, &b.internal, &b.stress_work, &b.viscous_work, &b.plastic_work, &b.elastic, &b.external, &b.boundary,
         &b.friction, &b.transfer, &b.filter, &b.stress_timing, &b.outflow, &b.residual, &books.state.energy})
     *energy *= whole;
   for (Vector* v : {&b.momentum_residual, &b.angular_momentum_residual, &books.state.momentum, &books.state.angular_momentum,
-                    &books.boundary_momentum, &books.external_momentum})
+                    &books.boundary_momentum, &books.external_momentum, &books.outflow_momentum})
     *v = whole * *v;
   return books;
 }
@@ -57,6 +63,7 @@ std::vector<BookEntry> entries_of(const Books& books) {
                                     {"boundary_work", "J", b.boundary},
                                     {"friction_work", "J", b.friction},
                                     {"outflow_energy", "J", b.outflow},
+                                    {"outflow_mass", "kg", books.outflow_mass},
                                     {"transfer_energy", "J", b.transfer},
                                     {"filter_energy", "J", b.filter},
                                     {"stress_timing_energy", "J", b.stress_timing},
@@ -69,13 +76,18 @@ std::vector<BookEntry> entries_of(const Books& books) {
   add("boundary_impulse", "kg m/s", books.boundary_momentum);
   add("external_impulse", "kg m/s", books.external_momentum);
   add("angular_momentum", "kg m^2/s", books.state.angular_momentum);
+  for (const auto& [name, done] : books.boundaries) {
+    add((name + "_impulse").c_str(), "kg m/s", done.momentum);
+    entries.push_back({name + "_work", "J", done.energy});
+  }
   return entries;
 }
 
-History::History(std::filesystem::path path, const std::vector<HistoryColumn>& gauges, std::int64_t rows_to_keep)
+History::History(std::filesystem::path path, const Books& books, const std::vector<HistoryColumn>& gauges,
+                 std::int64_t rows_to_keep)
     : path_(std::move(path)) {
   std::string header(first_columns);
-  for (const BookEntry& entry : entries_of({})) header += fmt::format(",{} [{}]", entry.name, entry.unit);
+  for (const BookEntry& entry : entries_of(books)) header += fmt::format(",{} [{}]", entry.name, entry.unit);
   for (const HistoryColumn& column : gauges) header += fmt::format(",{} [{}]", column.name, column.unit);
   header += '\n';
   rows_to_keep > 0 ? keep(header, rows_to_keep) : replace_file_by_text(path_, header);

@@ -16,7 +16,10 @@ struct Books {
   Balance balance;
   Change state;  // kinetic energy, momentum, angular momentum
   double initial_internal = 0.0, peak_kinetic = 0.0, mass = 0.0;
+  double outflow_mass = 0.0;  // kg, that has left
+  Vector outflow_momentum{};  // kg m/s, that it carried
   Vector boundary_momentum{}, external_momentum{};
+  std::vector<std::pair<std::string, Change>> boundaries;  // what each has done since the start, by name
 };
 Books books_of(const Simulation& s);
 
@@ -29,8 +32,8 @@ std::vector<BookEntry> entries_of(const Books& books);
 
 class History {
  public:
-  /// Begins the file, or continues it after so many rows. Throws std::runtime_error.
-  History(std::filesystem::path path, const std::vector<HistoryColumn>& gauges, std::int64_t rows_to_keep);
+  /// Begins the file with a column for each entry of the books, or continues it after so many rows. Throws std::runtime_error.
+  History(std::filesystem::path path, const Books& books, const std::vector<HistoryColumn>& gauges, std::int64_t rows_to_keep);
 
   void add_row(const Simulation& s, const Books& books, const std::vector<double>& gauges);
   std::int64_t rows() const { return rows_; }

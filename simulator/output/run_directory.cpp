@@ -9,6 +9,7 @@
 
 #include "models/programs/files.hpp"
 #include "simulator/case_reader.hpp"
+#include "simulator/output/checkpoint.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -29,6 +30,13 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// A run that was interrupted, killed or stopped by an error, and has something to go on from.
+bool is_unfinished(const fs::path& directory) {
+  const fs::path summary = directory / "summary.json";
+  const bool ended = fs::exists(summary) && text_of(summary).find("\"ending\": \"done\"") != std::string::npos;
+  return has_checkpoint(directory) && !ended;
+}
+
 }  // namespace
 
 void prepare_directory(const fs::path& directory, const Case& c, bool overwrite) {
@@ -39,7 +47,9 @@ void prepare_directory(const fs::path& directory, const Case& c, bool overwrite)
     const fs::path earlier = directory / "case.toml";
     const std::string why = !fs::exists(earlier)       ? "holds files that are no run"
                             : text_of(earlier) != text ? "holds a run of another case"
-                                                       : "";
+                            : is_unfinished(directory)
+                                ? "holds a run that has not come to its end (brisance resume goes on with it)"
+                                : "";
     if (!why.empty())
       throw std::invalid_argument(fmt::format(
           "{}: {}; choose another directory with -o, or replace the run there with --overwrite", directory.string(), why));

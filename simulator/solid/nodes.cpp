@@ -104,7 +104,8 @@ void accelerate_block(Simulation& s, std::size_t number, double dt, double refer
   const BlockPosition block = block_position(key);
   const std::vector<Crossing> planes = crossings<D>(s, key);
   const LeastMass<D> least_mass(s, key, reference);
-  const double end = s.time + dt;
+  // Velocities lag half a step behind positions.
+  const double start = s.time - 0.5 * s.last_time_step, end = start + dt;
   for (int field = 0; field < s.grid.fields; ++field) {
     const Lanes* sums = s.grid.block_sums(number, field);
     Lanes* motion = s.grid.block_motion(number, field);
@@ -119,7 +120,7 @@ void accelerate_block(Simulation& s, std::size_t number, double dt, double refer
         Vector before = (1.0 / m) * read<D>(in, Channel::momentum);
         for (const Crossing& c : planes)
           if (local[static_cast<std::size_t>(c.axis)] == c.plane)
-            before = bounded(s.boundaries[c.boundary], before, in[Channel::touch] > 0.0, s.time);
+            before = bounded(s.boundaries[c.boundary], before, in[Channel::touch] > 0.0, start);
         const Vector free = before + (1.0 / m) * impulse;
         Vector after = free;
         for (const Crossing& c : planes)
@@ -150,7 +151,7 @@ void accelerate_block(Simulation& s, std::size_t number, double dt, double refer
 }
 
 template <int D>
-void velocities_of_block(Simulation& s, std::size_t number, double reference, Touch touch) {
+void velocities_of_block(Simulation& s, std::size_t number, double reference, Touch touch, double time) {
   const BlockKey key = s.grid.blocks[number];
   const std::vector<Crossing> planes = crossings<D>(s, key);
   const LeastMass<D> least_mass(s, key, reference);
@@ -166,7 +167,7 @@ void velocities_of_block(Simulation& s, std::size_t number, double reference, To
         Vector v = (1.0 / m) * read<D>(in, Channel::momentum);
         const bool touched = (touch == Touch::as_accelerated ? motion[n] : sums[n])[Channel::touch] > 0.0;
         for (const Crossing& c : planes)
-          if (local[static_cast<std::size_t>(c.axis)] == c.plane) v = bounded(s.boundaries[c.boundary], v, touched, s.time);
+          if (local[static_cast<std::size_t>(c.axis)] == c.plane) v = bounded(s.boundaries[c.boundary], v, touched, time);
         out[Channel::mass] = m, out[Channel::touch] = touched ? 1.0 : 0.0;
         write<D>(out, Channel::velocity, v);
       }
@@ -191,12 +192,13 @@ NodeResult accelerate(Simulation& s, double dt) {
   return result;
 }
 
-void velocities_from_momentum(Simulation& s, Touch touch) {
+void velocities_from_momentum(Simulation& s, Touch touch, double time) {
   const Timed timed(s.times, Phase::nodes);
   const double reference = reference_mass(s);
   parallel_for_blocks(s.grid.my_blocks.size(), [&](std::size_t i) {
     const auto b = static_cast<std::size_t>(s.grid.my_blocks[i]);
-    s.dimensions() == 3 ? velocities_of_block<3>(s, b, reference, touch) : velocities_of_block<2>(s, b, reference, touch);
+    s.dimensions() == 3 ? velocities_of_block<3>(s, b, reference, touch, time)
+                        : velocities_of_block<2>(s, b, reference, touch, time);
   });
 }
 

@@ -16,7 +16,7 @@ NodeResult accelerate(Simulation& s, double dt);
 /// Where it is known which nodes touch a wall: in the sums, or in the motion that accelerate() has left.
 enum class Touch { in_sums, as_accelerated };
 
-/// Velocities from the momentum in the sums, boundaries applied, into the grid's motion.
-void velocities_from_momentum(Simulation& s, Touch touch);
+/// Velocities from the momentum in the sums, boundaries as at a time (s) applied, into the grid's motion.
+void velocities_from_momentum(Simulation& s, Touch touch, double time);
 
 }  // namespace brisance::simulator

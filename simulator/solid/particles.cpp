@@ -65,7 +65,8 @@ std::vector<Column> list(const Particles& p) {
                                                            {"plastic_work", "J/kg"}};
   for (int k = 0; k < R::count - R::energy; ++k) columns.push_back({rest[k].first, rest[k].second, 2, R::energy + k});
   for (int k = 0; k < p.history_columns; ++k) columns.push_back({"history_" + std::to_string(k), "1", 2, p.history() + k});
-  for (int k = 0; k < p.area_columns; ++k) columns.push_back({std::string("area_") + axes[k], "m^2", 2, p.area() + k});
+  for (int k = 0; k < p.area_columns; ++k)
+    columns.push_back({"area_" + std::to_string(k / D) + "_" + axes[k % D], "m^2", 2, p.area() + k});
   if (p.has_strength) columns.push_back({"strength", "1", 2, p.strength()});
   return columns;
 }

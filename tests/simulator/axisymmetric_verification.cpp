@@ -133,7 +133,9 @@ TEST_P(LameCylinder, ConvergesToTheClosedForm) {
   const LameErrors coarse = lame(1.0 / 16, basis), fine = lame(1.0 / 32, basis);
   const double order = std::log2(coarse.displacement / fine.displacement),
                stress_order = std::log2(coarse.stress / fine.stress);
-  EXPECT_GT(std::max(order, stress_order), 1.8);
+  // The stress of the particles at the surfaces is of first order; it is reported, the displacement is what converges.
+  EXPECT_GT(order, 1.8);
+  RecordProperty("stress_order", std::to_string(stress_order));
   EXPECT_NEAR(fine.hoop_inside, 1.0, 0.02);
   EXPECT_NEAR(fine.hoop_outside, 1.0, 0.02);
   EXPECT_LT(fine.displacement, 0.02);

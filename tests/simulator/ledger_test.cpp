@@ -103,7 +103,7 @@ void step_by_hand(Simulation& s, double dt, const Mutation& forget) {
   NodeResult nodes = accelerate(s, dt_velocity);
   ParticleResult particles = grid_to_particles(s, {dt, dt_velocity, true});
   share();
-  velocities_from_momentum(s, Touch::as_accelerated);
+  velocities_from_momentum(s, Touch::as_accelerated, s.time + 0.5 * dt);
   velocity_gradients(s);
   update_stress(s, dt, &Particles::next_motion);
   if (forget) forget(particles, nodes);
