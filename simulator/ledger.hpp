@@ -1,6 +1,7 @@
 #pragma once
-// The books of a run: energy, momentum and angular momentum, each change booked where it happens and by its own formula. No
-// entry is what is left over from others, so an impulse or a heat that is forgotten shows as a residual.
+// The books of a run: energy, momentum and angular momentum, each change booked where it happens and by its own formula. The
+// two numerical entries compare two such sums (what the grid gives with what the particles get); none is what is left over
+// when the others have been taken away, so an impulse or a work that is forgotten shows as a residual.
 //
 //   kinetic energy    changes by the work of the grid's forces and boundaries, by the transfer between particles and grid, and
 //                     by the filter of the particle velocities
