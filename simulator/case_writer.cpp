@@ -4,32 +4,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "models/input/toml_tree.hpp"
 #include "simulator/case_reader.hpp"
 #include "simulator/keys.hpp"
 
 namespace brisance::simulator {
 namespace {
-
-std::string toml_text(std::string_view text) {
-  constexpr std::string_view digits = "0123456789ABCDEF";
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\')
-      result += '\\', result += c;
-    else if (byte < 0x20 || byte == 0x7F)
-      result += std::string("\\u00") + digits[byte / 16] + digits[byte % 16];
-    else
-      result += c;
-  }
-  return result + '"';
-}
-
-/// A TOML number that reads back to the same bits: never an integer, which would lose the sign of zero.
-std::string toml_number(double value) {
-  const std::string digits = shortest_text(value);
-  return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;
-}
 
 template <class List, class Text>
 std::string toml_list(const List& list, Text&& text) {

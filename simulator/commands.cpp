@@ -198,21 +198,14 @@ int run_command_line(int argc, char** argv) {
   describe_command->add_option("KEY", o.key, "path or last name of a key, or a table")->required();
   describe_command->callback([&] { code = describe_keys(o.key); });
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? done : bad_input;
-  } catch (const InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return bad_input;
-  } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return failed_while_running;
-  }
-  return code;
+  return exit_code_of([&] {
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return app.exit(error) == 0 ? static_cast<int>(done) : bad_input;
+    }
+    return code;
+  });
 }
 
 }  // namespace brisance::simulator

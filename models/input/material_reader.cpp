@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "models/input/toml_tree.hpp"
 #include "models/input/units.hpp"
 
 namespace brisance {
@@ -157,31 +158,6 @@ std::optional<Path> find_material(TableReader& table, std::string_view key, cons
 }
 
 // --- Writing ----------------------------------------------------------------------------------------------------------
-
-std::string toml_text(std::string_view text) {
-  constexpr std::string_view digits = "0123456789ABCDEF";
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\')
-      result += '\\', result += c;
-    else if (c == '\n')
-      result += "\\n";
-    else if (c == '\t')
-      result += "\\t";
-    else if (byte < 0x20 || byte == 0x7F)
-      result += std::string("\\u00") + digits[byte / 16] + digits[byte % 16];
-    else
-      result += c;
-  }
-  return result + '"';
-}
-
-/// A TOML number that reads back to the same bits: never an integer, which would lose the sign of zero.
-std::string toml_number(double value) {
-  const std::string digits = shortest_text(value);
-  return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;
-}
 
 template <class Numbers>
 std::string toml_numbers(const Numbers& values) {

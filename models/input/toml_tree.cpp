@@ -274,4 +274,28 @@ std::string read_text_file(const std::filesystem::path& path) {
   return text;
 }
 
+std::string toml_text(std::string_view text) {
+  constexpr std::string_view digits = "0123456789ABCDEF";
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      result += '\\', result += c;
+    else if (c == '\n')
+      result += "\\n";
+    else if (c == '\t')
+      result += "\\t";
+    else if (byte < 0x20 || byte == 0x7F)
+      result += std::string("\\u00") + digits[byte / 16] + digits[byte % 16];
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+std::string toml_number(double value) {
+  const std::string digits = shortest_text(value);
+  return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;
+}
+
 }  // namespace brisance

@@ -58,4 +58,9 @@ TomlNode parse_toml(std::string_view text, const std::string& file_name);
 /// The text of a file. Throws InputError if there is no such file, or it cannot be read, or it is empty or huge.
 std::string read_text_file(const std::filesystem::path& path);
 
+/// A text as TOML writes it, in quotes.
+std::string toml_text(std::string_view text);
+/// A TOML number that reads back to the same bits: never an integer, which would lose the sign of zero.
+std::string toml_number(double value);
+
 }  // namespace brisance

@@ -232,7 +232,7 @@ std::vector<std::uint64_t> bytes_of(const Simulation& s) {
   const auto add = [&](const void* from, std::size_t size) {
     const std::size_t words = (size + 7) / 8;
     all.resize(all.size() + words, 0);
-    std::memcpy(all.data() + all.size() - words, from, size);
+    if (size > 0) std::memcpy(all.data() + all.size() - words, from, size);
   };
   for (const Body& b : s.bodies) {
     const Particles& p = b.particles;
