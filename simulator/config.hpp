@@ -12,11 +12,9 @@
 
 #include "models/input/material_reader.hpp"
 #include "models/parameters.hpp"
+#include "simulator/vector.hpp"
 
 namespace brisance::simulator {
-
-/// A place or a direction: x, y, z. In the axisymmetric geometry x is the radius r and y is z; in the plane z is unused.
-using Vector = std::array<double, 3>;
 
 enum class Geometry { plane, axisymmetric, three_dimensional };
 enum class Basis { quadratic_spline, ugimp };

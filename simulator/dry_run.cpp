@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "simulator/output/fields.hpp"
-#include "simulator/run.hpp"
 #include "simulator/solid/shapes.hpp"
+#include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
 
 namespace brisance::simulator {

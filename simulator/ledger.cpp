@@ -14,13 +14,9 @@ void Ledger::book(const ParticleTally& particles, const NodeTally& nodes, const 
   }
   const Change moved = particles.flip - nodes.change;
   internal_force.add(internal), external.add(particles.external);
-  Change booked = internal + particles.external + moved + particles.filter + particles.advection;
-  for (std::size_t b = 0; b < boundaries.size(); ++b) {
+  for (std::size_t b = 0; b < boundaries.size(); ++b)
     boundary[b].add(boundaries[b].impulse), friction[b].add(boundaries[b].friction);
-    booked += boundaries[b].impulse;
-  }
   transfer.add(moved), filter.add(particles.filter), advection.add(particles.advection);
-  unbooked.add((particles.state - state) - booked);
   state = particles.state;
   peak_kinetic = std::max(peak_kinetic, state.energy);
 }

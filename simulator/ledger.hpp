@@ -18,22 +18,6 @@
 
 namespace brisance::simulator {
 
-inline Vector operator+(const Vector& a, const Vector& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-inline Vector operator-(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline Vector operator*(double f, const Vector& a) {
-  return {f * a[0], f * a[1], f * a[2]};
-}
-inline double dot(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// Something that acts over a step: energy (J), momentum (N s) and angular momentum about the origin (N m s).
 struct Change {
   double energy = 0.0;
@@ -132,7 +116,6 @@ struct Ledger {
   double outflow_internal = 0.0;         // J
   double outflow_work = 0.0;             // J, that stress and viscosity had done on them
   double outflow_mass = 0.0;             // kg
-  Account unbooked;                      // what the steps changed and nobody booked: round-off
 
   /// Books an accepted step. `external_forces` tells whether any act, so that internal and external work are told apart.
   void book(const ParticleTally& particles, const NodeTally& nodes, const std::vector<BoundaryTally>& boundaries,

@@ -15,6 +15,7 @@
 #include "simulator/output/gauges.hpp"
 #include "simulator/output/run_directory.hpp"
 #include "simulator/output/snapshot.hpp"
+#include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
 
 namespace brisance::simulator {
@@ -28,20 +29,11 @@ struct RunFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-double courant_number(const Simulation& s, const NumericsConfig& n) {
-  if (n.courant > 0.0) return n.courant;
-  if (n.stress_timing == StressTiming::usl) return 0.3;
-  return s.dimensions() == 3 ? 0.4 : 0.5;
-}
-
 std::int64_t count_particles(const Simulation& s) {
   std::int64_t count = 0;
   for (const Body& body : s.bodies) count += body.particles.size;
   return count;
 }
-
-/// What limits the steps that end a run: they may be as small as they have to be.
-constexpr std::string_view last_steps = "the end of the run";
 
 /// How often an interval fits into a time; what is due at a time depends on nothing else.
 std::int64_t count(double time, double interval) {
@@ -57,10 +49,6 @@ double megabytes_used() {
 std::string clock_text(double seconds) {
   const auto s = static_cast<long>(std::min(seconds, 3.6e8));
   return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02}", s / 60, s % 60);
-}
-
-double magnitude(const Vector& v) {
-  return std::sqrt(dot(v, v));
 }
 
 /// Stops a run whose books do not close, or that is out of bounds.
@@ -315,30 +303,6 @@ class Run {
 };
 
 }  // namespace
-
-StepSize next_step(const Simulation& s, const NumericsConfig& numerics, double end_time) {
-  const double h = s.grid.cell_size;
-  const Extremes& e = s.extremes;
-  StepSize size{std::numeric_limits<double>::infinity(), "nothing"};
-  const auto limit = [&](double dt, std::string_view reason) {
-    if (!(dt >= size.dt)) size = {dt, reason};
-  };
-  constexpr double farthest = 0.5;  // cells a particle may move
-  if (e.wave_and_motion > 0.0) limit(courant_number(s, numerics) * h / e.wave_and_motion, "the speed of waves");
-  if (e.speed > 0.0) limit(farthest * h / e.speed, "the speed of particles");
-  if (e.volume_rate > 0.0) limit(numerics.most_volume_change / e.volume_rate, "the rate of volume change");
-  if (s.last_time_step > 0.0)
-    limit(numerics.growth * s.last_time_step, "growth from the step before");
-  else if (numerics.first_step > 0.0)
-    limit(numerics.first_step, "numerics.first_step");
-  const double left = end_time - s.time;
-  // Two steps of equal size instead of a very small last one.
-  if (size.dt >= left)
-    size = {left, last_steps};
-  else if (2.0 * size.dt > left)
-    size = {0.5 * left, last_steps};
-  return size;
-}
 
 RunResult run(const Case& c, Simulation& s, const RunOptions& options) {
   return Run(c, s, options).begin();

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "simulator/output/summary.hpp"
 #include "simulator/simulation.hpp"
@@ -34,13 +33,5 @@ RunResult run(const Case& c, Simulation& s, const RunOptions& options);
 RunResult resume(const Case& c, Simulation& s, const RunOptions& options);
 /// What the newest checkpoint in a directory says, with figures drawn again; `s` has been set up from the case.
 Summary report(const Case& c, Simulation& s, const std::filesystem::path& directory);
-
-/// The size of the next step and what limits it. It follows from the state alone, so that a run that was interrupted takes the
-/// same steps as one that was not.
-struct StepSize {
-  double dt;
-  std::string_view limit;
-};
-StepSize next_step(const Simulation& s, const NumericsConfig& numerics, double end_time);
 
 }  // namespace brisance::simulator

@@ -228,11 +228,7 @@ Partition partition_of(const std::vector<Body>& bodies, double cell_size, int ra
   if (ranks == 1) return result;
   std::vector<BlockKey> keys;
   for (const Body& body : bodies)
-    for (int p = 0; p < body.particles.size; ++p) {
-      const double* x = body.particles.motion.particle(p);
-      keys.push_back(body.particles.dimensions == 3 ? block_at<3>(x, chunk_size, 1.0 / cell_size)
-                                                    : block_at<2>(x, chunk_size, 1.0 / cell_size));
-    }
+    for (int p = 0; p < body.particles.size; ++p) keys.push_back(block_of(body.particles, p, cell_size));
   std::sort(keys.begin(), keys.end());
   for (int r = 1; r < ranks; ++r) {
     const BlockKey key = keys[keys.size() * static_cast<std::size_t>(r) / static_cast<std::size_t>(ranks)];
@@ -246,12 +242,8 @@ void keep_own(Simulation& s, Body& body) {
   if (s.domain->size() == 1) return;
   Particles& ps = body.particles;
   std::vector<std::uint32_t> own;
-  for (int p = 0; p < ps.size; ++p) {
-    const double* x = ps.motion.particle(p);
-    const BlockKey key = ps.dimensions == 3 ? block_at<3>(x, chunk_size, 1.0 / s.grid.cell_size)
-                                            : block_at<2>(x, chunk_size, 1.0 / s.grid.cell_size);
-    if (s.partition.owner(key) == s.domain->rank()) own.push_back(static_cast<std::uint32_t>(p));
-  }
+  for (int p = 0; p < ps.size; ++p)
+    if (s.partition.owner(block_of(ps, p, s.grid.cell_size)) == s.domain->rank()) own.push_back(static_cast<std::uint32_t>(p));
   ps.reorder(own);
   ps.resize(static_cast<int>(own.size()));
 }

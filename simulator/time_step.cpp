@@ -11,10 +11,6 @@ namespace {
 /// The constitutive update integrates up to this |dt L| accurately; far below what would turn a particle inside out.
 constexpr double largest_increment = 0.14;
 
-bool acceptable(const LargestGradient& gradient, double dt) {
-  return gradient.norm * dt <= largest_increment;
-}
-
 void share_momentum(Simulation& s) {
   const Timed timed(s.times, Phase::sum_tiles);
   gather_tiles(s.grid, *s.domain);
@@ -24,7 +20,7 @@ void share_momentum(Simulation& s) {
 /// Stress from the velocities of the grid, unless the step is too large.
 bool deform(Simulation& s, double dt, ColumnSet Particles::*velocities) {
   broadcast_motion(s.grid, *s.domain);
-  if (!acceptable(velocity_gradients(s), dt)) return false;
+  if (!(velocity_gradients(s) * dt <= largest_increment)) return false;
   update_stress(s, dt, velocities);
   return true;
 }

@@ -122,18 +122,13 @@ void activate(Grid& grid, std::span<const BlockKey> with_particles, const Partit
     return at != keys.end() && *at == key ? static_cast<std::int32_t>(at - keys.begin()) : -1;
   };
 
-  grid.tile_is_mine.assign(grid.tile_block.size(), 0), grid.block_is_mine.assign(grid.blocks.size(), 0);
   grid.my_tiles.clear(), grid.my_blocks.clear();
-  for (const BlockKey key : with_particles) {
-    const std::int32_t t = find(grid.tile_block, key);
-    grid.tile_is_mine[static_cast<std::size_t>(t)] = 1;
-    grid.my_tiles.push_back(t);
-  }
+  for (const BlockKey key : with_particles) grid.my_tiles.push_back(find(grid.tile_block, key));
   grid.contributions.assign(grid.blocks.size(), {});
   grid.tile_neighbours.assign(grid.tile_block.size(), {});
   for (std::size_t b = 0; b < grid.blocks.size(); ++b)
     if (partition.owner(grid.blocks[b]) == me)
-      grid.block_is_mine[b] = 1, grid.my_blocks.push_back(static_cast<std::int32_t>(b));
+      grid.my_blocks.push_back(static_cast<std::int32_t>(b));
   for (std::size_t t = 0; t < grid.tile_block.size(); ++t)  // in Morton order, so contributions are as well
     for_each_neighbour(grid.dimensions, block_position(grid.tile_block[t]),
                        [&](const BlockPosition& n, const auto& offset, int index) {

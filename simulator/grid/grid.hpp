@@ -79,13 +79,11 @@ struct Grid {
 
   // Tiles: of the blocks that hold particles, here and, as far as they touch blocks owned here, on other ranks.
   std::vector<BlockKey> tile_block;  // in Morton order
-  std::vector<char> tile_is_mine;
   std::vector<std::int32_t> my_tiles;
   std::vector<Lanes> tiles;  // [tile][field][tile node]
 
   // Blocks of nodes: owned here, or read by tiles from here.
   std::vector<BlockKey> blocks;  // in Morton order
-  std::vector<char> block_is_mine;
   std::vector<std::int32_t> my_blocks;
   std::vector<Lanes> sums;                                    // [block][field][node]: mass, momentum, force, touch
   std::vector<Lanes> motion;                                  // [block][field][node]: velocity, change of velocity

@@ -16,7 +16,7 @@ namespace brisance::simulator {
 namespace {
 
 using Path = std::filesystem::path;
-constexpr std::string_view format = "brisance checkpoint 1";
+constexpr std::string_view format = "brisance checkpoint 2";
 
 /// A number that almost surely changes when any bit of the data does.
 class Checksum {
@@ -53,7 +53,7 @@ template <class AnyLedger, class F>
 void for_each_part(AnyLedger& ledger, F&& f) {
   f(ledger.initial), f(ledger.initial_internal), f(ledger.state), f(ledger.peak_kinetic);
   f(ledger.internal_force), f(ledger.external), f(ledger.transfer), f(ledger.filter), f(ledger.advection);
-  f(ledger.outflow), f(ledger.outflow_internal), f(ledger.outflow_work), f(ledger.outflow_mass), f(ledger.unbooked);
+  f(ledger.outflow), f(ledger.outflow_internal), f(ledger.outflow_work), f(ledger.outflow_mass);
   for (auto& account : ledger.boundary) f(account);
   for (auto& friction : ledger.friction) f(friction);
 }

@@ -101,12 +101,6 @@ double ParticleView::rest(int column) const {
   return ps_.rest.at(column - Layout<2>::tensor_components + tensor, p_);
 }
 
-double Field::scalar(const ParticleView& particle) const {
-  std::array<double, 3> values{};
-  read(particle, values.data());
-  return values[0];
-}
-
 std::span<const Field> all_fields() {
   return fields;
 }
@@ -114,12 +108,6 @@ std::span<const Field> all_fields() {
 const Field* find_field(std::string_view name) {
   const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.name == name; });
   return found == fields.end() ? nullptr : &*found;
-}
-
-std::string_view describe(FailureCause cause) {
-  constexpr std::array<std::string_view, 7> words = {
-      "none", "melting", "TEPLA-F", "critical damage", "critical porosity", "instability", "tensile limit"};
-  return words[static_cast<std::size_t>(cause)];
 }
 
 }  // namespace brisance::simulator

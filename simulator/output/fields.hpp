@@ -44,15 +44,10 @@ struct Field {
   std::string_view name, unit, meaning;
   int components;
   void (*read)(const ParticleView& particle, double* components);
-
-  double scalar(const ParticleView& particle) const;  // of one component
 };
 
 std::span<const Field> all_fields();
 /// nullptr if there is none of this name.
 const Field* find_field(std::string_view name);
-
-/// The words for a failure cause.
-std::string_view describe(FailureCause cause);
 
 }  // namespace brisance::simulator

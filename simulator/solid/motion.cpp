@@ -9,11 +9,6 @@
 namespace brisance::simulator {
 namespace {
 
-BlockKey block_of(const Particles& p, int particle, double cell_size) {
-  const double* x = p.motion.particle(particle);
-  return p.dimensions == 3 ? block_at<3>(x, chunk_size, 1.0 / cell_size) : block_at<2>(x, chunk_size, 1.0 / cell_size);
-}
-
 Vector vector_at(const Particles& p, int particle, int first) {
   Vector v{};
   for (int a = 0; a < p.dimensions; ++a) v[static_cast<std::size_t>(a)] = p.motion.at(first + a, particle);
@@ -116,6 +111,11 @@ bool let_leave(Simulation& s, Body& body, const std::vector<std::uint32_t>& left
 }
 
 }  // namespace
+
+BlockKey block_of(const Particles& p, int particle, double cell_size) {
+  const double* x = p.motion.particle(particle);
+  return p.dimensions == 3 ? block_at<3>(x, chunk_size, 1.0 / cell_size) : block_at<2>(x, chunk_size, 1.0 / cell_size);
+}
 
 void place_particles(Simulation& s) {
   for (Body& body : s.bodies) {

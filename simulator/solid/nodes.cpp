@@ -92,88 +92,100 @@ Vector with_friction(const Boundary& b, const Vector& before, Vector after) {
   const double pressed = std::abs(after[axis] - before[axis]);
   Vector slip = after;
   slip[axis] = 0.0;
-  const double size = std::sqrt(dot(slip, slip));
+  const double size = magnitude(slip);
   if (pressed == 0.0 || size == 0.0) return after;
   return after - (std::min(b.friction * pressed, size) / size) * slip;
+}
+
+/// A node of a block as the boundaries see it.
+struct Node {
+  std::array<double, 8> sums;       // what the particles have added
+  Vector position;                  // m
+  std::vector<std::size_t> planes;  // the boundaries that it lies on
+  double mass() const { return sums[Channel::mass]; }
+};
+
+/// Calls f(node, motion) for every node of a block that holds mass, to fill its motion; the others are at rest. `motion` comes
+/// as it was.
+template <int D, class F>
+void for_each_node(Simulation& s, std::size_t number, double reference, F&& f) {
+  const BlockKey key = s.grid.blocks[number];
+  const BlockPosition block = block_position(key);
+  const std::vector<Crossing> planes = crossings<D>(s, key);
+  const LeastMass<D> least_mass(s, key, reference);
+  Node node;
+  for (int field = 0; field < s.grid.fields; ++field) {
+    const Lanes* sums = s.grid.block_sums(number, field);
+    Lanes* motion = s.grid.block_motion(number, field);
+    for (int n = 0; n < Block<D>::nodes; ++n) {
+      alignas(64) std::array<double, 8> in, out{};
+      sums[n].store(in.data());
+      const std::array<int, 3> local = local_index<D>(n);
+      if (in[Channel::mass] > least_mass(local)) {
+        motion[n].store(out.data());
+        node.sums = in, node.position = place<D>(block, local, s.grid.cell_size);
+        node.planes.clear();
+        for (const Crossing& c : planes)
+          if (local[static_cast<std::size_t>(c.axis)] == c.plane) node.planes.push_back(c.boundary);
+        f(node, out);
+      }
+      motion[n] = Lanes::load(out.data());
+    }
+  }
 }
 
 template <int D>
 void accelerate_block(Simulation& s, std::size_t number, double dt, double reference, NodeTally& tally,
                       std::vector<BoundaryTally>& boundaries) {
-  const BlockKey key = s.grid.blocks[number];
-  const BlockPosition block = block_position(key);
-  const std::vector<Crossing> planes = crossings<D>(s, key);
-  const LeastMass<D> least_mass(s, key, reference);
   // Velocities lag half a step behind positions.
   const double start = s.time - 0.5 * s.last_time_step, end = start + dt;
-  for (int field = 0; field < s.grid.fields; ++field) {
-    const Lanes* sums = s.grid.block_sums(number, field);
-    Lanes* motion = s.grid.block_motion(number, field);
-    for (int n = 0; n < Block<D>::nodes; ++n) {
-      alignas(64) std::array<double, 8> in, out{};
-      sums[n].store(in.data());
-      const double m = in[Channel::mass];
-      const std::array<int, 3> local = local_index<D>(n);
-      if (m > least_mass(local)) {
-        const Vector x = place<D>(block, local, s.grid.cell_size);
-        const Vector impulse = dt * read<D>(in, Channel::force);
-        Vector before = (1.0 / m) * read<D>(in, Channel::momentum);
-        for (const Crossing& c : planes)
-          if (local[static_cast<std::size_t>(c.axis)] == c.plane)
-            before = bounded(s.boundaries[c.boundary], before, in[Channel::touch] > 0.0, start);
-        const Vector free = before + (1.0 / m) * impulse;
-        Vector after = free;
-        for (const Crossing& c : planes)
-          if (local[static_cast<std::size_t>(c.axis)] == c.plane) {
-            const Boundary& b = s.boundaries[c.boundary];
-            after = with_friction(b, after, bounded(b, after, in[Channel::touch] > 0.0, end));
-          }
-        // With the final velocity known, every impulse is booked with the same mean velocity.
-        const Vector mean = 0.5 * (before + after);
-        Vector velocity = free;
-        for (const Crossing& c : planes)
-          if (local[static_cast<std::size_t>(c.axis)] == c.plane) {
-            const Boundary& b = s.boundaries[c.boundary];
-            const Vector held = bounded(b, velocity, in[Channel::touch] > 0.0, end), rubbed = with_friction(b, velocity, held);
-            BoundaryTally& to = boundaries[c.boundary];
-            to.impulse += act(m * (rubbed - velocity), x, mean);
-            to.friction += dot(m * (rubbed - held), mean);
-            velocity = rubbed;
-          }
-        tally.force += act(impulse, x, mean);
-        tally.change += act(m * (after - before), x, mean);
-        out[Channel::mass] = m, out[Channel::touch] = in[Channel::touch];
-        write<D>(out, Channel::velocity, after), write<D>(out, Channel::change, after - before);
-      }
-      motion[n] = Lanes::load(out.data());
+  for_each_node<D>(s, number, reference, [&](const Node& node, std::array<double, 8>& motion) {
+    const double m = node.mass();
+    const bool touched = node.sums[Channel::touch] > 0.0;
+    const Vector impulse = dt * read<D>(node.sums, Channel::force);
+    Vector before = (1.0 / m) * read<D>(node.sums, Channel::momentum);
+    for (const std::size_t b : node.planes) before = bounded(s.boundaries[b], before, touched, start);
+    const Vector free = before + (1.0 / m) * impulse;
+    Vector after = free;
+    for (const std::size_t b : node.planes)
+      after = with_friction(s.boundaries[b], after, bounded(s.boundaries[b], after, touched, end));
+    // With the final velocity known, every impulse is booked with the same mean velocity.
+    const Vector mean = 0.5 * (before + after);
+    Vector velocity = free;
+    for (const std::size_t b : node.planes) {
+      const Vector held = bounded(s.boundaries[b], velocity, touched, end),
+                   rubbed = with_friction(s.boundaries[b], velocity, held);
+      boundaries[b].impulse += act(m * (rubbed - velocity), node.position, mean);
+      boundaries[b].friction += dot(m * (rubbed - held), mean);
+      velocity = rubbed;
     }
-  }
+    tally.force += act(impulse, node.position, mean);
+    tally.change += act(m * (after - before), node.position, mean);
+    motion = {};
+    motion[Channel::mass] = m, motion[Channel::touch] = node.sums[Channel::touch];
+    write<D>(motion, Channel::velocity, after), write<D>(motion, Channel::change, after - before);
+  });
 }
 
 template <int D>
 void velocities_of_block(Simulation& s, std::size_t number, double reference, Touch touch, double time) {
-  const BlockKey key = s.grid.blocks[number];
-  const std::vector<Crossing> planes = crossings<D>(s, key);
-  const LeastMass<D> least_mass(s, key, reference);
-  for (int field = 0; field < s.grid.fields; ++field) {
-    const Lanes* sums = s.grid.block_sums(number, field);
-    Lanes* motion = s.grid.block_motion(number, field);
-    for (int n = 0; n < Block<D>::nodes; ++n) {
-      alignas(64) std::array<double, 8> in, out{};
-      sums[n].store(in.data());
-      const double m = in[Channel::mass];
-      const std::array<int, 3> local = local_index<D>(n);
-      if (m > least_mass(local)) {
-        Vector v = (1.0 / m) * read<D>(in, Channel::momentum);
-        const bool touched = (touch == Touch::as_accelerated ? motion[n] : sums[n])[Channel::touch] > 0.0;
-        for (const Crossing& c : planes)
-          if (local[static_cast<std::size_t>(c.axis)] == c.plane) v = bounded(s.boundaries[c.boundary], v, touched, time);
-        out[Channel::mass] = m, out[Channel::touch] = touched ? 1.0 : 0.0;
-        write<D>(out, Channel::velocity, v);
-      }
-      motion[n] = Lanes::load(out.data());
-    }
-  }
+  for_each_node<D>(s, number, reference, [&](const Node& node, std::array<double, 8>& motion) {
+    const double touches = (touch == Touch::as_accelerated ? motion : node.sums)[Channel::touch];
+    Vector v = (1.0 / node.mass()) * read<D>(node.sums, Channel::momentum);
+    for (const std::size_t b : node.planes) v = bounded(s.boundaries[b], v, touches > 0.0, time);
+    motion = {};
+    motion[Channel::mass] = node.mass(), motion[Channel::touch] = touches;
+    write<D>(motion, Channel::velocity, v);
+  });
+}
+
+/// Calls f.template operator()<D>(i, block) for the blocks of this rank.
+template <class F>
+void for_each_block(const Simulation& s, F&& f) {
+  parallel_for_blocks(s.grid.my_blocks.size(), [&](std::size_t i) {
+    const auto block = static_cast<std::size_t>(s.grid.my_blocks[i]);
+    s.dimensions() == 3 ? f.template operator()<3>(i, block) : f.template operator()<2>(i, block);
+  });
 }
 
 }  // namespace
@@ -184,10 +196,8 @@ NodeResult accelerate(Simulation& s, double dt) {
   result.tallies.resize(s.grid.my_blocks.size());
   result.boundaries.assign(s.grid.my_blocks.size(), std::vector<BoundaryTally>(s.boundaries.size()));
   const double reference = reference_mass(s);
-  parallel_for_blocks(s.grid.my_blocks.size(), [&](std::size_t i) {
-    const auto b = static_cast<std::size_t>(s.grid.my_blocks[i]);
-    s.dimensions() == 3 ? accelerate_block<3>(s, b, dt, reference, result.tallies[i], result.boundaries[i])
-                        : accelerate_block<2>(s, b, dt, reference, result.tallies[i], result.boundaries[i]);
+  for_each_block(s, [&]<int D>(std::size_t i, std::size_t block) {
+    accelerate_block<D>(s, block, dt, reference, result.tallies[i], result.boundaries[i]);
   });
   return result;
 }
@@ -195,11 +205,7 @@ NodeResult accelerate(Simulation& s, double dt) {
 void velocities_from_momentum(Simulation& s, Touch touch, double time) {
   const Timed timed(s.times, Phase::nodes);
   const double reference = reference_mass(s);
-  parallel_for_blocks(s.grid.my_blocks.size(), [&](std::size_t i) {
-    const auto b = static_cast<std::size_t>(s.grid.my_blocks[i]);
-    s.dimensions() == 3 ? velocities_of_block<3>(s, b, reference, touch, time)
-                        : velocities_of_block<2>(s, b, reference, touch, time);
-  });
+  for_each_block(s, [&]<int D>(std::size_t, std::size_t block) { velocities_of_block<D>(s, block, reference, touch, time); });
 }
 
 }  // namespace brisance::simulator

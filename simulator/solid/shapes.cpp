@@ -9,12 +9,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Vector difference(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-double dot(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 double square(double x) {
   return x * x;
 }
@@ -28,17 +22,17 @@ bool holds(const Box& box, const Vector& p) {
 }
 
 bool holds(const Sphere& sphere, const Vector& p) {
-  const Vector d = difference(p, sphere.centre);
+  const Vector d = p - sphere.centre;
   return dot(d, d) < square(sphere.radius) && dot(d, d) >= square(sphere.inner_radius);
 }
 
 bool holds(const Cone& cone, const Vector& p) {
-  const Vector axis = difference(cone.end, cone.start), d = difference(p, cone.start);
+  const Vector axis = cone.end - cone.start, d = p - cone.start;
   const double part = dot(d, axis) / dot(axis, axis);
   // The face with the smaller coordinates belongs to the cone, as with a box, whichever end is called the start.
   const bool upwards = axis > Vector{};
   if (upwards ? part < 0.0 || part >= 1.0 : part <= 0.0 || part > 1.0) return false;
-  const Vector off_axis = {d[0] - part * axis[0], d[1] - part * axis[1], d[2] - part * axis[2]};
+  const Vector off_axis = d - part * axis;
   const double distance_squared = dot(off_axis, off_axis);
   return distance_squared < square(std::lerp(cone.start_radius, cone.end_radius, part)) &&
          distance_squared >= square(std::lerp(cone.inner_start_radius, cone.inner_end_radius, part));
@@ -64,7 +58,7 @@ Bounds bounds_of(const Sphere& sphere) {
   return result;
 }
 Bounds bounds_of(const Cone& cone) {
-  const Vector axis = difference(cone.end, cone.start);
+  const Vector axis = cone.end - cone.start;
   Bounds result;
   for (std::size_t k = 0; k < 3; ++k) {
     // How far a disk of radius 1 across the axis reaches along direction k.

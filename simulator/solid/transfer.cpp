@@ -307,7 +307,7 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
   constexpr int D = dimensions_of<G>;
   using L = Layout<D>;
   const double h = s.grid.cell_size, inverse_h = 1.0 / h;
-  const bool motion = carry != Carry::force, force = carry != Carry::motion;
+  const bool force = carry != Carry::motion;
   const bool affine = s.numerics.particle_velocity == ParticleVelocity::aflip;
   const bool walls = std::any_of(s.boundaries.begin(), s.boundaries.end(),
                                  [](const Boundary& b) { return b.kind == BoundaryKind::rigid_wall; });
@@ -333,7 +333,7 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
       // Channels of momentum and force, by direction: affine momentum m C and stress -V sigma.
       std::array<double, 3> field_force{}, mv{};
       double touch = 0.0;
-      for (int a = 0; a < D; ++a) mv[a] = motion ? m * v[a] : 0.0;
+      for (int a = 0; a < D; ++a) mv[a] = m * v[a];
       SymmetricTensor<double> f;  // -V sigma
       if (force) {
         double pressure = 0.0;
@@ -345,7 +345,7 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
         }
       }
       if (walls && touches_wall<D>(s, body, static_cast<int>(p), x)) touch = 1.0;
-      const double mC = motion && affine ? m : 0.0;
+      const double mC = affine ? m : 0.0;
       const auto C = [&](int a, int b) { return mC * from[(L::Motion::affine + D * a + b) * chunk_size]; };
       const Lanes value = pack(m, mv[0], mv[1], mv[2], field_force[0], field_force[1], field_force[2], touch);
       std::array<Lanes, D> both;
@@ -539,7 +539,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
 }
 
 template <Geometry G, Basis basis>
-LargestGradient gradients(Simulation& s, const TileView& tile) {
+double gradients(Simulation& s, const TileView& tile) {
   constexpr int D = dimensions_of<G>;
   using L = Layout<D>;
   const double h = s.grid.cell_size, inverse_h = 1.0 / h;
@@ -550,7 +550,7 @@ LargestGradient gradients(Simulation& s, const TileView& tile) {
     load_tile(s.grid, tile.number, f, nodes);
     unfold<D>(s.boundaries, tile.key, nodes);
   }
-  double largest_square = 0.0, largest_trace = 0.0;
+  double largest_square = 0.0;
   for_each_share(s, tile, [&](std::size_t, Body& body, const Bin& bin) {
     Particles& ps = body.particles;
     CellMeans<D> rates;
@@ -586,11 +586,10 @@ LargestGradient gradients(Simulation& s, const TileView& tile) {
       double square = 0.0;
       for (int k = 0; k < L::tensor_components; ++k) square += l[k * chunk_size] * l[k * chunk_size];
       largest_square = std::max(largest_square, square);
-      largest_trace = std::max(largest_trace, std::abs(trace_of(l)));
       if (!(square < 1e300)) largest_square = 1e300;  // not a number is the largest of all
     }
   });
-  return {std::sqrt(largest_square), largest_trace};
+  return std::sqrt(largest_square);
 }
 
 }  // namespace
@@ -626,15 +625,13 @@ ParticleResult grid_to_particles(Simulation& s, const ParticleStep& step) {
   return result;
 }
 
-LargestGradient velocity_gradients(Simulation& s) {
+double velocity_gradients(Simulation& s) {
   const Timed timed(s.times, Phase::velocity_gradients);
-  std::vector<LargestGradient> largest(s.grid.my_tiles.size());
+  std::vector<double> largest(s.grid.my_tiles.size());
   with_kernel(s, [&]<Geometry G, Basis basis>() {
     parallel_for_blocks(largest.size(), [&](std::size_t i) { largest[i] = gradients<G, basis>(s, view(s.grid, i)); });
   });
-  LargestGradient all;
-  for (const LargestGradient& l : largest) all.norm = std::max(all.norm, l.norm), all.trace = std::max(all.trace, l.trace);
-  return {s.domain->maximum(all.norm), s.domain->maximum(all.trace)};
+  return s.domain->maximum(largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end()));
 }
 
 }  // namespace brisance::simulator

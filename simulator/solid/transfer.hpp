@@ -7,9 +7,9 @@
 namespace brisance::simulator {
 
 /// What particles add to the grid.
-enum class Carry { motion_and_force, motion, force };
+enum class Carry { motion_and_force, motion };
 
-/// Mass, momentum and forces of the particles to the tiles, ghosts folded. With `force` alone the mass comes too.
+/// Mass, momentum and forces of the particles to the tiles, ghosts folded.
 void particles_to_grid(Simulation& s, Carry carry);
 
 /// What the grid gives back.
@@ -30,11 +30,8 @@ struct ParticleResult {
 ParticleResult grid_to_particles(Simulation& s, const ParticleStep& step);
 
 /// The velocity gradient at every particle from the velocities of the grid, its volume change averaged over each cell for the
-/// bodies that ask for it. Returns the largest |L| and |tr L| (1/s).
-struct LargestGradient {
-  double norm = 0.0, trace = 0.0;
-};
-LargestGradient velocity_gradients(Simulation& s);
+/// bodies that ask for it. Returns the largest |L| (1/s).
+double velocity_gradients(Simulation& s);
 
 /// Force on a particle per mass from gravity and body force (m/s^2).
 Vector acceleration_field(const Simulation& s, const Vector& position);

@@ -17,54 +17,22 @@
 #include "driver/hdf5_file.hpp"
 #include "driver/history.hpp"
 #include "models/input/csv.hpp"
+#include "tests/command_line.hpp"
 
 namespace brisance::driver {
 namespace {
 
-namespace fs = std::filesystem;
 const fs::path source = BRISANCE_SOURCE_DIR;
-
-struct Answer {
-  int code;
-  std::string out, err;
-};
 
 Answer call(std::vector<std::string> words) {
   words.insert(words.begin(), "pointdriver");
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int code = run_command_line(static_cast<int>(argv.size()), argv.data());
-  std::fflush(stdout);
-  std::fflush(stderr);
-  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
-
-/// A fresh directory of this test.
-fs::path scratch() {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = std::string("brisance_") + info->test_suite_name() + "_" + info->name();
-  std::replace(name.begin(), name.end(), '/', '_');
-  const fs::path directory = fs::path(testing::TempDir()) / (name + "_" + std::to_string(getpid()));
-  fs::remove_all(directory);
-  fs::create_directories(directory);
-  return directory;
-}
-
-fs::path write_text(const fs::path& path, const std::string& text) {
-  std::ofstream(path) << text;
-  return path;
+  return call_program(run_command_line, std::move(words));
 }
 
 std::string path_file(const std::string& segments, const std::string& top = "") {
   return "material = \"steel_4340.toml\"\nheat = \"adiabatic\"\n" + top + "[initial]\ntemperature = \"298 K\"\n" + segments;
 }
 const std::string pull = "[[segment]]\nmode = \"uniaxial_stress\"\nstrain_rate = 1000\nstrain = 0.02\n";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST(List, NamesEveryFolderAndLaw) {
   const Answer a = call({"list"});

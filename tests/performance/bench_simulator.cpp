@@ -10,6 +10,7 @@
 
 #include "models/input/material_reader.hpp"
 #include "simulator/setup.hpp"
+#include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
 
 namespace brisance::simulator {
@@ -26,7 +27,7 @@ struct Setting {
 Case bar(const Setting& setting) {
   Case c;
   c.geometry = setting.geometry;
-  c.numerics.basis = setting.basis;
+  c.numerics.basis = setting.basis, c.end_time = 1.0;
   BodyConfig body;
   body.name = "bar";
   body.material =
@@ -56,13 +57,6 @@ Case bar(const Setting& setting) {
   return c;
 }
 
-double next_step(const Case& c, const Simulation& s) {
-  const double courant = c.dimensions() == 3 ? 0.4 : 0.5;
-  const double limit =
-      std::min(courant * c.cell_size / s.extremes.wave_and_motion, 0.1 / std::max(s.extremes.volume_rate, 1e-9));
-  return s.last_time_step > 0.0 ? std::min(limit, 1.1 * s.last_time_step) : 0.1 * limit;
-}
-
 void measure(const Setting& setting) {
   omp_set_num_threads(setting.threads);
   const Case c = bar(setting);
@@ -71,7 +65,7 @@ void measure(const Setting& setting) {
   const int warm = 30, steps = std::max(10, static_cast<int>(4e6 / particles));
   const auto go = [&](int count) {
     for (int i = 0; i < count; ++i) {
-      double dt = next_step(c, s);
+      double dt = next_step(s, c.numerics, c.end_time).dt;
       while (advance(s, dt) != StepOutcome::done) dt *= 0.5;
     }
   };

@@ -11,6 +11,7 @@
 #include "simulator/setup.hpp"
 #include "simulator/simulation.hpp"
 #include "simulator/solid/stress.hpp"
+#include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
 
 namespace brisance::simulator::by_hand {
@@ -61,15 +62,17 @@ inline Table table(std::initializer_list<std::pair<double, double>> points) {
 
 // Running -------------------------------------------------------------------------------------------------------------
 
-/// The step that a courant number allows, no longer than what is left.
-inline double courant_step(const Simulation& s, double courant, double end) {
-  return std::min(courant * s.grid.cell_size / s.extremes.wave_and_motion, end - s.time);
+/// The step of a run of its own numerics, but for the courant number; 0: that of the run as well.
+inline double stable_step(const Simulation& s, double end, double courant = 0.0) {
+  NumericsConfig numerics;
+  numerics.courant = courant;
+  return next_step(s, numerics, end).dt;
 }
 
 /// Advances to a time; every step must be accepted. `after_step` sees the simulation after each.
 inline void run_to(Simulation& s, double end, double courant, const std::function<void()>& after_step = {}) {
   while (s.time < end * (1.0 - 1e-12)) {
-    if (advance(s, courant_step(s, courant, end)) != StepOutcome::done) throw std::runtime_error("a step was rejected");
+    if (advance(s, stable_step(s, end, courant)) != StepOutcome::done) throw std::runtime_error("a step was rejected");
     if (after_step) after_step();
   }
 }
@@ -117,9 +120,6 @@ inline double largest_stress(const Simulation& s) {
     for (int p = 0; p < b.particles.size; ++p)
       for (int k = 0; k < stress_components(b.particles); ++k) largest = std::max(largest, std::abs(stress(b.particles, p, k)));
   return largest;
-}
-inline double size(const Vector& v) {
-  return std::sqrt(dot(v, v));
 }
 
 // Manufactured materials -----------------------------------------------------------------------------------------------

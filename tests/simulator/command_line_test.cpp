@@ -12,25 +12,9 @@
 namespace brisance::simulator {
 namespace {
 
-struct Answer {
-  int code;
-  std::string out, err;
-};
-
 Answer call(std::vector<std::string> words) {
   words.insert(words.begin(), "brisance");
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int code = run_command_line(static_cast<int>(argv.size()), argv.data());
-  std::fflush(stdout);
-  std::fflush(stderr);
-  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+  return call_program(run_command_line, std::move(words));
 }
 
 const std::string no_figures = "[output]\nfigures = false\n";

@@ -44,7 +44,7 @@ TEST(UniformTranslation, ThroughManyCellsLeavesABodyFreeOfStress) {
         by_hand::run_to(s, 3.0, 0.4);  // twenty cells and more
         EXPECT_LT(by_hand::largest_stress(s), stress_round_off * 1000.0);
         const Particles& ps = s.bodies[0].particles;
-        for (int p = 0; p < ps.size; ++p) EXPECT_LT(by_hand::size(by_hand::velocity(ps, p) - velocity), 1e-12);
+        for (int p = 0; p < ps.size; ++p) EXPECT_LT(magnitude(by_hand::velocity(ps, p) - velocity), 1e-12);
       }
 }
 
@@ -208,9 +208,9 @@ Collision collide(double h, ParticleVelocity v) {
     if (s.time > 2.8) sum += 0.5 * (kinetic_before + s.ledger.state.energy) + internal_before - start, steps += 1.0;
     kinetic_before = s.ledger.state.energy, internal_before = internal_energy(s).total;
     least_kinetic = std::min(least_kinetic, s.ledger.state.energy);
-    momentum_error = std::max(momentum_error, by_hand::size(momentum(s)));
-    asymmetry = std::max(asymmetry, by_hand::size(by_hand::mean(s.bodies[0], by_hand::position) +
-                                                  by_hand::mean(s.bodies[1], by_hand::position)));
+    momentum_error = std::max(momentum_error, magnitude(momentum(s)));
+    asymmetry = std::max(
+        asymmetry, magnitude(by_hand::mean(s.bodies[0], by_hand::position) + by_hand::mean(s.bodies[1], by_hand::position)));
   });
   EXPECT_LT(least_kinetic, 0.6 * kinetic) << "they meet";
   EXPECT_LT(dot(by_hand::mean(s.bodies[0], by_hand::velocity), {1.0, 1.0, 0.0}), 0.0) << "and part";

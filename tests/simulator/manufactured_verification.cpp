@@ -58,7 +58,7 @@ double error(Basis basis, ParticleVelocity particle_velocity, double h) {
   const int n = static_cast<int>(std::lround(radius / spacing));
   for (int j = -n; j < n; ++j)
     for (int i = -n; i < n; ++i)
-      if (const Vector x{(i + 0.5) * spacing, (j + 0.5) * spacing, 0.0}; by_hand::size(x) < radius) start.push_back(x);
+      if (const Vector x{(i + 0.5) * spacing, (j + 0.5) * spacing, 0.0}; magnitude(x) < radius) start.push_back(x);
 
   Simulation s;
   s.geometry = Geometry::plane;
@@ -68,7 +68,7 @@ double error(Basis basis, ParticleVelocity particle_velocity, double h) {
   Body body = by_hand::neo_hookean_body<2>(law, density, static_cast<int>(start.size()), spacing);
   for (int p = 0; p < body.particles.size; ++p) {
     const Vector& x = start[static_cast<std::size_t>(p)];
-    const double R = by_hand::size(x);
+    const double R = magnitude(x);
     const Angle a = angle(R, 0.0);
     ColumnSet& motion = body.particles.motion;
     for (int k = 0; k < 2; ++k) motion.at(L::Motion::position + k, p) = x[static_cast<std::size_t>(k)];
@@ -87,7 +87,7 @@ double error(Basis basis, ParticleVelocity particle_velocity, double h) {
   const Particles& ps = s.bodies[0].particles;
   for (int p = 0; p < ps.size; ++p) {
     const Vector& x = start[ps.id[static_cast<std::size_t>(p)]];
-    const double turned = angle(by_hand::size(x), s.time).value, c = std::cos(turned), si = std::sin(turned);
+    const double turned = angle(magnitude(x), s.time).value, c = std::cos(turned), si = std::sin(turned);
     const Vector difference = by_hand::position(ps, p) - Vector{c * x[0] - si * x[1], si * x[0] + c * x[1], 0.0};
     sum += dot(difference, difference);
   }

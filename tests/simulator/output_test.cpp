@@ -15,6 +15,7 @@
 #include "simulator/output/snapshot.hpp"
 #include "simulator/run.hpp"
 #include "simulator/setup.hpp"
+#include "simulator/step_size.hpp"
 #include "tests/simulator/small_bar.hpp"
 
 namespace brisance::simulator {

@@ -13,6 +13,7 @@
 #include "simulator/setup.hpp"
 #include "simulator/solid/stress.hpp"
 #include "simulator/time_step.hpp"
+#include "tests/simulator/by_hand.hpp"
 
 namespace brisance::simulator {
 
@@ -23,19 +24,11 @@ inline Case shipped_case(const std::string& name, const std::vector<std::string>
   return read_case(std::filesystem::path(BRISANCE_SOURCE_DIR) / "data/cases" / (name + ".toml"), changes);
 }
 
-/// The stable step of the state as it is; it grows by a tenth at most.
-inline double stable_step(const Simulation& s, double courant = 0.5) {
-  const double h = s.grid.cell_size;
-  double dt = std::min(courant * h / s.extremes.wave_and_motion, 0.1 / std::max(s.extremes.volume_rate, 1e-300));
-  if (s.last_time_step > 0.0) dt = std::min(dt, 1.1 * s.last_time_step);
-  return dt;
-}
-
 /// Steps until `end`, after each of which `after_step()` is called.
 template <class F>
 void run_until(Simulation& s, double end, F&& after_step) {
   while (s.time < end * (1.0 - 1e-12)) {
-    double dt = std::min(stable_step(s), end - s.time);
+    double dt = by_hand::stable_step(s, end);
     while (advance(s, dt) != StepOutcome::done) dt *= 0.5;
     after_step();
   }

@@ -128,7 +128,7 @@ constexpr int steps = 100;
 void go(Simulation& s, int dimensions, const std::function<void(Simulation&)>& before_step) {
   for (int i = 0; i < steps; ++i) {
     if (before_step) before_step(s);
-    double dt = by_hand::courant_step(s, dimensions == 3 ? 0.4 : 0.5, 1.0);
+    double dt = by_hand::stable_step(s, 1.0, dimensions == 3 ? 0.4 : 0.5);
     while (advance(s, dt) != StepOutcome::done) dt *= 0.5;
   }
 }
@@ -248,7 +248,7 @@ std::vector<std::uint64_t> bytes_of(const Simulation& s) {
   add(&s.extremes, sizeof(s.extremes));
   const Ledger& l = s.ledger;
   add(&l.state, sizeof(l.state)), add(&l.peak_kinetic, sizeof(double));
-  for (const Account* a : {&l.internal_force, &l.external, &l.transfer, &l.filter, &l.advection, &l.outflow, &l.unbooked})
+  for (const Account* a : {&l.internal_force, &l.external, &l.transfer, &l.filter, &l.advection, &l.outflow})
     add(a, sizeof(Account));
   for (const Account& a : l.boundary) add(&a, sizeof(Account));
   for (const CompensatedSum& f : l.friction) add(&f, sizeof(f));
@@ -261,14 +261,14 @@ TEST(RejectedStep, LeavesEveryByteOfTheStateAsItWas) {
     for (Case c : {quarter_bar(), axisymmetric_bar()}) {
       c.numerics.stress_timing = timing;
       Simulation s = set_up(c);
-      const auto step = [&] { return by_hand::courant_step(s, 0.3, 1.0); };
+      const auto step = [&] { return by_hand::stable_step(s, 1.0, 0.3); };
       for (int i = 0; i < 20; ++i) ASSERT_EQ(advance(s, step()), StepOutcome::done);
       const auto before = bytes_of(s);
       ASSERT_EQ(advance(s, 100.0 * step()), StepOutcome::rejected);
       EXPECT_EQ(before, bytes_of(s));
       // Nor does it leave a trace in what is computed from the state.
       Simulation t = set_up(c);
-      for (int i = 0; i < 20; ++i) advance(t, by_hand::courant_step(t, 0.3, 1.0));
+      for (int i = 0; i < 20; ++i) advance(t, by_hand::stable_step(t, 1.0, 0.3));
       const double dt = step();
       advance(s, dt), advance(t, dt);
       EXPECT_EQ(bytes_of(s), bytes_of(t));

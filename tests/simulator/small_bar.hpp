@@ -1,43 +1,16 @@
 #pragma once
 // A small copper bar against a rigid wall, as a case file in a directory of the test's own.
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numeric>
 #include <string>
 #include <vector>
 
 #include "simulator/simulation.hpp"
+#include "tests/command_line.hpp"
 
 namespace brisance::simulator {
-
-namespace fs = std::filesystem;
-
-/// A fresh directory of this test.
-inline fs::path scratch() {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const fs::path directory = fs::path(testing::TempDir()) / (std::string("brisance_") + info->test_suite_name() + "_" +
-                                                             info->name() + "_" + std::to_string(getpid()));
-  fs::remove_all(directory);
-  fs::create_directories(directory);
-  return directory;
-}
-
-inline fs::path write_text(const fs::path& path, const std::string& text) {
-  std::ofstream(path) << text;
-  return path;
-}
-
-inline std::string text_of(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// 240 particles for about 90 steps.
 inline std::string small_bar(const std::string& more = "") {

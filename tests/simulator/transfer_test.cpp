@@ -70,7 +70,7 @@ struct Carried {
   double mass_size = 0.0, momentum_size = 0.0;  // sums of the sizes of the terms
   void add(double m, const Vector& p, const Vector& x) {
     mass += m, momentum = momentum + p, angular_momentum = angular_momentum + cross(x, p);
-    mass_size += std::abs(m), momentum_size += by_hand::size(p);
+    mass_size += std::abs(m), momentum_size += magnitude(p);
   }
 };
 template <int D>
