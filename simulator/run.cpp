@@ -15,6 +15,7 @@
 #include "simulator/output/gauges.hpp"
 #include "simulator/output/run_directory.hpp"
 #include "simulator/output/snapshot.hpp"
+#include "simulator/solid/stress.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
 
@@ -205,12 +206,12 @@ class Run {
         throw RunFailure(fmt::format(
             "step {} at {:.6g} s would have to be {:.4g} s{}; it is limited by {}{}", s_.step + 1, s_.time, size.dt,
             case_.numerics.least_step > 0.0 ? fmt::format(", less than {:.4g} s", case_.numerics.least_step) : "", size.limit,
-            halvings > 0 ? fmt::format(", and was rejected {} times: particles deform too fast", halvings) : ""));
+            halvings > 0 ? fmt::format(", and was rejected {} times; {}", halvings, worst_point(s_, 2.0 * size.dt)) : ""));
       if (advance(s_, size.dt) == StepOutcome::done) return;
       constexpr int most_lines = 100;
       if (++rejections_ <= most_lines)
-        log_.line(fmt::format("step {} at {:.6g} s: rejected with {:.4g} s, a particle would be deformed too much", s_.step + 1,
-                              s_.time, size.dt));
+        log_.line(fmt::format("step {} at {:.6g} s: rejected with {:.4g} s; {}", s_.step + 1, s_.time, size.dt,
+                              worst_point(s_, size.dt)));
     }
   }
 

@@ -56,6 +56,7 @@ struct Extremes {
   double wave_and_motion = 0.0;  // m/s, the same plus the largest component of the velocity
   double speed = 0.0;            // m/s, largest component
   double volume_rate = 0.0;      // 1/s, |tr L|
+  double filling = 0.0;          // density over the highest, or the lowest over it, that the equation of state holds for
 };
 
 struct Simulation {

@@ -20,7 +20,8 @@ void share_momentum(Simulation& s) {
 /// Stress from the velocities of the grid, unless the step is too large.
 bool deform(Simulation& s, double dt, ColumnSet Particles::*velocities) {
   broadcast_motion(s.grid, *s.domain);
-  if (!(velocity_gradients(s) * dt <= largest_increment)) return false;
+  const double gradient = velocity_gradients(s);
+  if (!(gradient * dt <= largest_increment) || !densities_stay_in_range(s, gradient, dt)) return false;
   update_stress(s, dt, velocities);
   return true;
 }

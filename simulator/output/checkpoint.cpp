@@ -42,10 +42,10 @@ class Checksum {
 };
 
 std::vector<double> numbers_of(const Extremes& e) {
-  return {e.wave_speed, e.wave_and_motion, e.speed, e.volume_rate};
+  return {e.wave_speed, e.wave_and_motion, e.speed, e.volume_rate, e.filling};
 }
 Extremes extremes_from(const std::vector<double>& v) {
-  return {v.at(0), v.at(1), v.at(2), v.at(3)};
+  return {v.at(0), v.at(1), v.at(2), v.at(3), v.at(4)};
 }
 
 /// Calls f(part) for every part of the ledger that has a fixed size, and then for the accounts of the boundaries.

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
+#include "models/equation_of_state/thermodynamics.hpp"
 #include "models/kinematics.hpp"
 #include "models/update.hpp"
 #include "simulator/domain/message.hpp"
@@ -113,6 +115,11 @@ double largest(const Lanes& a, int lanes) {
   return m;
 }
 
+/// How near densities (kg/m^3, of the metal itself) are to the ends of what an equation of state holds for: 1 is an end.
+Lanes filling(const equation_of_state::DensityRange& range, const Lanes& density) {
+  return max(density * (1.0 / range.highest), range.lowest / density);
+}
+
 /// Speeds that limit the step, from sound speed, artificial viscosity and velocity.
 template <int D>
 void look(const Simulation& s, const Body& body, int chunk, const Lanes& density, const Lanes& bulk_modulus,
@@ -138,11 +145,12 @@ void look(const Simulation& s, const Body& body, int chunk, const Lanes& density
 Extremes& operator|=(Extremes& a, const Extremes& b) {
   a.wave_speed = std::max(a.wave_speed, b.wave_speed), a.wave_and_motion = std::max(a.wave_and_motion, b.wave_and_motion);
   a.speed = std::max(a.speed, b.speed), a.volume_rate = std::max(a.volume_rate, b.volume_rate);
+  a.filling = std::max(a.filling, b.filling);
   return a;
 }
 Extremes over_all_ranks(Domain& domain, const Extremes& e) {
   return {domain.maximum(e.wave_speed), domain.maximum(e.wave_and_motion), domain.maximum(e.speed),
-          domain.maximum(e.volume_rate)};
+          domain.maximum(e.volume_rate), domain.maximum(e.filling)};
 }
 
 /// The particle that a material could not advance.
@@ -152,20 +160,76 @@ struct Failing {
   std::uint64_t id = ~std::uint64_t{0};
 };
 
+/// A particle's facts, for messages.
 template <int D>
-[[noreturn]] void report(const Simulation& s, const Body& body, const Failing& f) {
+std::string facts(const Simulation& s, const Body& body, int particle) {
   using L = Layout<D>;
   const Particles& ps = body.particles;
-  const double* rest = ps.rest.particle(f.particle);
+  const double* rest = ps.rest.particle(particle);
   std::string place;
-  for (int a = 0; a < D; ++a) place += fmt::format("{}{:.6g}", a ? ", " : "", ps.motion.at(a, f.particle));
-  throw std::runtime_error(
-      fmt::format("{}: particle {} at ({}) m, step {}, time {:.6g} s: {}; temperature {:.5g} K, plastic strain {:.4g}, plastic "
-                  "strain rate {:.4g} /s, "
-                  "density {:.6g} kg/m^3",
-                  body.name, f.id, place, s.step, s.time, describe(f.trouble), rest[L::Rest::temperature * chunk_size],
-                  rest[L::Rest::plastic_strain * chunk_size], rest[L::Rest::plastic_strain_rate * chunk_size],
-                  ps.load.at(L::Load::density, f.particle)));
+  for (int a = 0; a < D; ++a) place += fmt::format("{}{:.6g}", a ? ", " : "", ps.motion.at(a, particle));
+  return fmt::format(
+      "{}: particle {} at ({}) m, step {}, time {:.6g} s: temperature {:.5g} K, plastic strain {:.4g}, plastic "
+      "strain rate {:.4g} /s, density {:.6g} kg/m^3",
+      body.name, ps.id[static_cast<std::size_t>(particle)], place, s.step, s.time, rest[L::Rest::temperature * chunk_size],
+      rest[L::Rest::plastic_strain * chunk_size], rest[L::Rest::plastic_strain_rate * chunk_size],
+      ps.load.at(L::Load::density, particle));
+}
+
+/// What an update overwrites, of the particles of one chunk.
+struct ChunkState {
+  std::vector<double> load, rest;
+
+  ChunkState(const Particles& ps, int chunk)
+      : load(ps.load.chunk(chunk), ps.load.chunk(chunk) + ps.load.columns() * chunk_size),
+        rest(ps.rest.chunk(chunk), ps.rest.chunk(chunk) + ps.rest.columns() * chunk_size) {}
+  void restore(Particles& ps, int chunk) const {
+    std::copy(load.begin(), load.end(), ps.load.chunk(chunk));
+    std::copy(rest.begin(), rest.end(), ps.rest.chunk(chunk));
+  }
+  void take(int lane, const ChunkState& from) {
+    for (std::size_t i = static_cast<std::size_t>(lane); i < load.size(); i += chunk_size) load[i] = from.load[i];
+    for (std::size_t i = static_cast<std::size_t>(lane); i < rest.size(); i += chunk_size) rest[i] = from.rest[i];
+  }
+};
+
+constexpr int most_parts = 64;
+
+/// Particles that the whole step has brought into trouble take it in 2, 4, ... equal parts along the same velocity gradient,
+/// and keep what the fewest parts gave that went well; whoever finds no way stays as it was. `whole` comes as the update has
+/// left it, and leaves with what is new.
+template <int D>
+void advance_in_parts(const Simulation& s, Body& body, int chunk, double dt, Pack& whole) {
+  Particles& ps = body.particles;
+  const ChunkState before(ps, chunk);
+  write_point<D>(ps, chunk, whole);
+  ChunkState result(ps, chunk);
+  for (int i = 0; i < chunk_size; ++i)
+    if (whole.trouble[i] != 0.0) result.take(i, before);
+  const auto batch = std::make_unique<Batch<Lanes>>();
+  batch->size = 1;
+  Pack& part = batch->points[0];
+  for (int parts = 2; parts <= most_parts && any(whole.trouble != 0.0); parts *= 2) {
+    before.restore(ps, chunk);
+    Lanes trouble(0.0);
+    for (int i = 1; i <= parts; ++i) {
+      batch->time = s.time + dt * i / parts;
+      read_point<D>(ps, chunk, s.grid.cell_size, part);
+      update(body.material, *batch, dt / parts);
+      write_point<D>(ps, chunk, part);
+      trouble = max(trouble, part.trouble);
+    }
+    const ChunkState after(ps, chunk);
+    const auto cured = (whole.trouble != 0.0) & (trouble == 0.0);
+    for (int i = 0; i < chunk_size; ++i)
+      if (whole.trouble[i] != 0.0 && trouble[i] == 0.0) result.take(i, after);
+    whole.state.density = select(cured, part.state.density, whole.state.density);
+    whole.state.shear_modulus = select(cured, part.state.shear_modulus, whole.state.shear_modulus);
+    whole.metal_density = select(cured, part.metal_density, whole.metal_density);
+    whole.bulk_modulus = select(cured, part.bulk_modulus, whole.bulk_modulus);
+    whole.trouble = select(cured, Lanes(0.0), whole.trouble);
+  }
+  result.restore(ps, chunk);
 }
 
 /// The material's own update of the particles of one batch.
@@ -177,17 +241,23 @@ void advance_batch(const Simulation& s, Body& body, int first_chunk, int chunks,
   for (int c = 0; c < chunks; ++c)
     read_point<D>(ps, first_chunk + c, s.grid.cell_size, batch.points[static_cast<std::size_t>(c)]);
   update(body.material, batch, dt);
+  const equation_of_state::DensityRange range = equation_of_state::range(body.material.equation_of_state);
   for (int c = 0; c < chunks; ++c) {
-    const Pack& p = batch.points[static_cast<std::size_t>(c)];
+    Pack& p = batch.points[static_cast<std::size_t>(c)];
     const int used = std::min(chunk_size, ps.size - (first_chunk + c) * chunk_size);
+    for (int i = used; i < chunk_size; ++i) p.trouble.set(i, 0.0);
+    if (none(p.trouble != 0.0))
+      write_point<D>(ps, first_chunk + c, p);
+    else
+      advance_in_parts<D>(s, body, first_chunk + c, dt, p);
     for (int i = 0; i < used; ++i) {
       const auto trouble = static_cast<Trouble>(static_cast<int>(p.trouble[i]));
       const int particle = (first_chunk + c) * chunk_size + i;
       const std::uint64_t id = ps.id[static_cast<std::size_t>(particle)];
       if (trouble != Trouble::none && id < failing.id) failing = {trouble, particle, id};
     }
-    write_point<D>(ps, first_chunk + c, p);
     look<D>(s, body, first_chunk + c, p.state.density, p.bulk_modulus, p.state.shear_modulus, velocities, extremes);
+    extremes.filling = std::max(extremes.filling, largest(filling(range, p.metal_density), used));
   }
 }
 
@@ -235,7 +305,9 @@ void advance_all(Simulation& s, double dt, ColumnSet Particles::*velocities) {
     for (const Extremes& e : extremes) all |= e;
     const auto worst =
         std::min_element(failing.begin(), failing.end(), [](const Failing& a, const Failing& b) { return a.id < b.id; });
-    if (worst != failing.end() && worst->trouble != Trouble::none) report<D>(s, body, *worst);
+    if (worst != failing.end() && worst->trouble != Trouble::none)
+      throw std::runtime_error(fmt::format("{}; {}; neither a whole step of {:.4g} s nor {} parts of it go well",
+                                           facts<D>(s, body, worst->particle), describe(worst->trouble), dt, most_parts));
   }
   s.extremes = over_all_ranks(*s.domain, all);
 }
@@ -260,8 +332,48 @@ Extremes look_at_all(const Simulation& s) {
       constexpr double any_time = 1e-9;
       update(body.material, *batch, any_time);
       look<D>(s, body, c, p.state.density, p.bulk_modulus, p.state.shear_modulus, body.particles.motion, all);
+      const int used = std::min(chunk_size, body.particles.size - c * chunk_size);
+      const auto range = equation_of_state::range(body.material.equation_of_state);
+      all.filling = std::max(all.filling, largest(filling(range, p.metal_density), used));
     }
   return all;
+}
+
+/// Calls f(body, chunk, filling at the end of a step of dt seconds) for all particles that have an equation of state.
+template <int D, class F>
+void for_each_filling(const Simulation& s, double dt, F&& f) {
+  using L = Layout<D>;
+  for (const Body& body : s.bodies) {
+    if (body.stress) continue;
+    const equation_of_state::DensityRange range = equation_of_state::range(body.material.equation_of_state);
+    for (int c = 0; c < body.particles.chunks(); ++c) {
+      const Lanes voids = read(body.particles.rest.chunk(c), L::Rest::plastic_volume_strain),
+                  volume_change = dt * trace(read_tensor<D>(body.particles.gradient.chunk(c)));
+      f(body, c, filling(range, read(body.particles.load.chunk(c), L::Load::density) * exp(voids - volume_change)));
+    }
+  }
+}
+
+template <int D>
+std::string worst_point(const Simulation& s, double dt) {
+  const Body* body = nullptr;
+  int particle = 0;
+  double fullest = 1.0, largest_square = 0.0;
+  for_each_filling<D>(s, dt, [&](const Body& b, int chunk, const Lanes& filling_of) {
+    const Tensor<Lanes> L = read_tensor<D>(b.particles.gradient.chunk(chunk));
+    const Lanes square = double_dot(L, L);
+    for (int i = 0; i < std::min(chunk_size, b.particles.size - chunk * chunk_size); ++i) {
+      const bool fuller = filling_of[i] > fullest, faster = fullest == 1.0 && !(square[i] <= largest_square);
+      if (!fuller && !faster) continue;
+      if (fuller) fullest = filling_of[i];
+      largest_square = square[i], body = &b, particle = chunk * chunk_size + i;
+    }
+  });
+  if (!body) return "";
+  const std::string what =
+      fullest > 1.0 ? "its density would leave the range of the equation of state" : "it would be deformed too much";
+  return fmt::format("{}; {}: the velocity gradient there is {:.4g} /s", facts<D>(s, *body, particle), what,
+                     std::sqrt(largest_square));
 }
 
 template <int D>
@@ -292,6 +404,21 @@ InternalEnergy of_bin(const Body& body, const Bin& bin) {
 
 Extremes extremes_of(const Simulation& s) {
   return over_all_ranks(*s.domain, s.dimensions() == 3 ? look_at_all<3>(s) : look_at_all<2>(s));
+}
+
+bool densities_stay_in_range(const Simulation& s, double largest_gradient, double dt) {
+  // No volume changes faster than sqrt(3) |L|: mostly that is all that has to be known.
+  if (s.extremes.filling * std::exp(std::sqrt(3.0) * largest_gradient * dt) <= 1.0) return true;
+  double fullest = 0.0;
+  const auto look = [&](const Body& body, int chunk, const Lanes& filling_of) {
+    fullest = std::max(fullest, largest(filling_of, std::min(chunk_size, body.particles.size - chunk * chunk_size)));
+  };
+  s.dimensions() == 3 ? for_each_filling<3>(s, dt, look) : for_each_filling<2>(s, dt, look);
+  return s.domain->maximum(fullest) <= 1.0;
+}
+
+std::string worst_point(const Simulation& s, double dt) {
+  return s.dimensions() == 3 ? worst_point<3>(s, dt) : worst_point<2>(s, dt);
 }
 
 void update_stress(Simulation& s, double dt, ColumnSet Particles::*velocities) {

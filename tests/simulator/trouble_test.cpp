@@ -1,0 +1,138 @@
+// What happens when a step is too much for a material: it is taken smaller, and nothing is lost on the way.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+
+#include "models/equation_of_state/thermodynamics.hpp"
+#include "models/input/material_reader.hpp"
+#include "simulator/output/run_directory.hpp"
+#include "simulator/run.hpp"
+#include "tests/simulator/by_hand.hpp"
+#include "tests/simulator/small_bar.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+using Layout2 = Layout<2>;
+
+Material copper() {
+  return read_material(std::string(BRISANCE_SOURCE_DIR) + "/data/materials/copper_ofhc_johnson_cook.toml");
+}
+
+/// A copper block in the plane geometry, 64 particles.
+Case block(const Vector& velocity = {}) {
+  Case c;
+  c.geometry = Geometry::plane, c.cell_size = 1e-3, c.end_time = 1.0;
+  c.bodies.push_back(by_hand::body("block", copper(), by_hand::box({0, 0, 0}, {4e-3, 4e-3, 1}), velocity));
+  return c;
+}
+
+void set_gradients(Simulation& s, int violent, double rate, double violent_rate) {
+  Particles& ps = s.bodies[0].particles;
+  for (int p = 0; p < ps.size; ++p) {
+    const double r = p == violent ? violent_rate : rate;
+    for (int k = 0; k < Layout2::tensor_components; ++k) ps.gradient.at(k, p) = 0.0;
+    ps.gradient.at(0, p) = r, ps.gradient.at(3, p) = -0.9 * r;
+  }
+}
+
+std::vector<std::uint64_t> columns_of(const Simulation& s, int particle) {
+  std::vector<std::uint64_t> bits;
+  const Particles& ps = s.bodies[0].particles;
+  for (const ColumnSet* set : {&ps.load, &ps.rest})
+    for (int c = 0; c < set->columns(); ++c) bits.push_back(std::bit_cast<std::uint64_t>(set->at(c, particle)));
+  return bits;
+}
+
+/// One particle is deformed more than the update can follow at once: it takes the step in two halves, the others do not.
+TEST(Trouble, OfOneParticleIsCuredByPartsOfItsStepAlone) {
+  constexpr double dt = 1e-7, rate = 1e5, violent_rate = 4e6;  // |dt L| = 0.013 and 0.54
+  constexpr int violent = 13;
+  Simulation whole = set_up(block()), halves = set_up(block()), mild = set_up(block());
+  set_gradients(whole, violent, rate, violent_rate);
+  set_gradients(halves, violent, rate, violent_rate);
+  set_gradients(mild, violent, rate, rate);
+  update_stress(whole, dt, &Particles::motion);
+  for (int i = 0; i < 2; ++i) update_stress(halves, 0.5 * dt, &Particles::motion);
+  update_stress(mild, dt, &Particles::motion);
+  for (int p = 0; p < whole.bodies[0].particles.size; ++p)
+    EXPECT_TRUE(columns_of(whole, p) == columns_of(p == violent ? halves : mild, p)) << p;
+  // The energy has taken up the work of all parts.
+  const InternalEnergy e = internal_energy(whole);
+  EXPECT_NEAR(e.total - whole.ledger.initial_internal, e.stress_work + e.viscous_work, 1e-12 * e.stress_work);
+}
+
+TEST(Trouble, ThatNoPartCuresNamesTheParticleAsItWas) {
+  Simulation s = set_up(block());
+  const double before = s.bodies[0].particles.rest.at(Layout2::Rest::temperature, 5);
+  set_gradients(s, 5, 1e5, std::numeric_limits<double>::quiet_NaN());
+  std::string message;
+  try {
+    update_stress(s, 1e-7, &Particles::motion);
+  } catch (const std::runtime_error& error) {
+    message = error.what();
+  }
+  EXPECT_TRUE(contains(message, "block: particle " + std::to_string(s.bodies[0].particles.id[5]))) << message;
+  EXPECT_TRUE(contains(message, "temperature 300 K")) << message;
+  EXPECT_TRUE(contains(message, "64 parts")) << message;
+  EXPECT_EQ(s.bodies[0].particles.rest.at(Layout2::Rest::temperature, 5), before);
+}
+
+/// A material that hardens without bound at 24 % compression is driven near to it: steps that are stable by the speed of sound
+/// before the shock would leave the range of its equation of state.
+Case stiffening(double velocity) {
+  Case c = block({0.0, -velocity, 0.0});
+  Material& m = c.bodies[0].material.material;
+  m.equation_of_state = equation_of_state::MieGruneisenTemperature{.reference_density = 8930.0,
+                                                                   .sound_speed = 3940.0,
+                                                                   .slope = 4.0,
+                                                                   .gruneisen = 2.0,
+                                                                   .specific_heat = 383.0,
+                                                                   .reference_temperature = 300.0};
+  m.artificial_viscosity = {0.0, 0.0};
+  BoundaryConfig wall = by_hand::plane(BoundaryKind::rigid_wall, Axis::y, 0.0, Side::above);
+  wall.name = "wall";
+  c.boundaries = {wall};
+  return c;
+}
+
+TEST(Trouble, CompressionOutOfRangeIsMetWithSmallerStepsAndTheRunCompletes) {
+  const Case c = stiffening(6000.0);
+  Simulation s = set_up(c);
+  int of_density = 0;
+  constexpr double end = 4e-7;
+  while (s.time < end) {
+    double dt = by_hand::stable_step(s, end);
+    for (;; dt *= 0.5) {
+      const std::vector<std::uint64_t> before = bits_of(s);
+      const std::int64_t step = s.step;
+      if (advance(s, dt) == StepOutcome::done) break;
+      ASSERT_TRUE(bits_of(s) == before && s.step == step) << "rejection leaves no trace";
+      ASSERT_GT(dt, 1e-15);
+      if (contains(worst_point(s, dt), "range of the equation of state")) ++of_density;
+    }
+  }
+  EXPECT_GT(of_density, 0);
+  const equation_of_state::DensityRange range = equation_of_state::range(c.bodies[0].material.material.equation_of_state);
+  EXPECT_GT(s.extremes.filling, 0.5);
+  EXPECT_LE(s.extremes.filling, 1.0) << range.highest;
+}
+
+/// Nothing holds a metal together that is torn apart at 40 km/s: however small the steps, its density leaves the range.
+TEST(Trouble, ThatNoStepCuresEndsTheRunWithTheFactsOfTheWorstParticle) {
+  Case c = block();
+  c.title = "torn", c.end_time = 1e-5, c.output.figures = false;
+  c.bodies[0].velocity.centre = {2e-3, 2e-3, 0.0};
+  c.bodies[0].velocity.radial_rate = 1e7;
+  Simulation s = set_up(c);
+  const fs::path directory = scratch();
+  const RunResult result = run(c, s, {directory, {}});
+  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_TRUE(contains(result.message, "was rejected 21 times; block: particle ")) << result.message;
+  EXPECT_TRUE(contains(result.message, "its density would leave the range of the equation of state")) << result.message;
+}
+
+}  // namespace
+}  // namespace brisance::simulator
