@@ -1,5 +1,7 @@
 #include "simulator/grid/boundary.hpp"
 
+#include "simulator/table.hpp"
+
 namespace brisance::simulator {
 namespace {
 
@@ -19,6 +21,11 @@ void for_each_line(const Boundary& boundary, int plane, F&& f) {
       }
 }
 
+/// The lowest bit of a wall's.
+int touch_shift(const Boundary& wall) {
+  return 8 * (2 * wall.axis + (wall.inward > 0 ? 0 : 1));
+}
+
 /// 1 in every channel, -1 in those that point across the plane.
 Lanes parity(int axis) {
   Lanes sign(1.0);
@@ -28,6 +35,21 @@ Lanes parity(int axis) {
 }
 
 }  // namespace
+
+void move_planes(std::vector<Boundary>& boundaries, double time, double cell_size) {
+  for (Boundary& b : boundaries) {
+    if (b.kind != BoundaryKind::velocity) continue;
+    b.position = b.initial_position + integral(b.velocity, time);
+    b.node = nearest_node(b.position, 1.0 / cell_size).node;
+  }
+}
+
+double touch_number(const Boundary& wall) {
+  return static_cast<double>(std::uint64_t{1} << touch_shift(wall));
+}
+bool touches(double sum, const Boundary& wall) {
+  return (static_cast<std::uint64_t>(sum) >> touch_shift(wall) & 255u) != 0;
+}
 
 template <int D>
 int local_plane(const Boundary& boundary, BlockKey block) {

@@ -24,7 +24,7 @@ struct Channel {
   static constexpr int velocity = 1;
   static constexpr int force = 4;  // N, in sums; change of velocity over the step (m/s) in motion
   static constexpr int change = 4;
-  static constexpr int touch = 7;  // > 0 where a particle touches a wall
+  static constexpr int touch = 7;  // which walls particles touch at the node: see boundary.hpp
 };
 
 /// Shape of blocks and tiles in D dimensions.

@@ -31,17 +31,26 @@ void write(std::array<double, 8>& c, int first, const Vector& v) {
   for (int a = 0; a < D; ++a) c[static_cast<std::size_t>(first + a)] = v[static_cast<std::size_t>(a)];
 }
 
-/// The boundaries whose planes run through a block.
+/// A boundary that holds nodes of a block: those on its plane, given by a local index, and behind a plane that travels all.
 struct Crossing {
   std::size_t boundary;
   int axis, plane;
+  int behind = 0;  // the direction in which nodes are held as well
+  bool holds(const std::array<int, 3>& local) const {
+    const int from_plane = local[static_cast<std::size_t>(axis)] - plane;
+    return from_plane == 0 || from_plane * behind > 0;
+  }
 };
 template <int D>
 std::vector<Crossing> crossings(const Simulation& s, BlockKey key) {
   std::vector<Crossing> found;
-  for (std::size_t b = 0; b < s.boundaries.size(); ++b)
-    if (s.boundaries[b].kind != BoundaryKind::outflow)
-      if (const int plane = local_plane<D>(s.boundaries[b], key); plane >= 0) found.push_back({b, s.boundaries[b].axis, plane});
+  for (std::size_t i = 0; i < s.boundaries.size(); ++i) {
+    const Boundary& b = s.boundaries[i];
+    const int plane = b.node - block_position(key)[static_cast<std::size_t>(b.axis)] * Block<D>::side;
+    const int behind = b.kind == BoundaryKind::velocity ? -b.inward : 0;
+    const bool from_above = plane >= 0 || behind > 0, from_below = plane < Block<D>::side || behind < 0;
+    if (b.kind != BoundaryKind::outflow && from_above && from_below) found.push_back({i, b.axis, plane, behind});
+  }
   return found;
 }
 
@@ -58,7 +67,7 @@ class LeastMass {
   }
   double operator()(const std::array<int, 3>& local) const {
     for (const Crossing& c : beside_)
-      if (local[static_cast<std::size_t>(c.axis)] == c.plane) return empty_beside_plane * reference_;
+      if (c.holds(local)) return empty_beside_plane * reference_;
     return empty * reference_;
   }
 
@@ -126,7 +135,7 @@ void for_each_node(Simulation& s, std::size_t number, double reference, F&& f) {
         node.sums = in, node.position = place<D>(block, local, s.grid.cell_size);
         node.planes.clear();
         for (const Crossing& c : planes)
-          if (local[static_cast<std::size_t>(c.axis)] == c.plane) node.planes.push_back(c.boundary);
+          if (c.holds(local)) node.planes.push_back(c.boundary);
         f(node, out);
       }
       motion[n] = Lanes::load(out.data());
@@ -141,20 +150,20 @@ void accelerate_block(Simulation& s, std::size_t number, double dt, double refer
   const double start = s.time - 0.5 * s.last_time_step, end = start + dt;
   for_each_node<D>(s, number, reference, [&](const Node& node, std::array<double, 8>& motion) {
     const double m = node.mass();
-    const bool touched = node.sums[Channel::touch] > 0.0;
+    const auto held_by = [&](const Boundary& b, const Vector& velocity, double time) {
+      return bounded(b, velocity, touches(node.sums[Channel::touch], b), time);
+    };
     const Vector impulse = dt * read<D>(node.sums, Channel::force);
     Vector before = (1.0 / m) * read<D>(node.sums, Channel::momentum);
-    for (const std::size_t b : node.planes) before = bounded(s.boundaries[b], before, touched, start);
+    for (const std::size_t b : node.planes) before = held_by(s.boundaries[b], before, start);
     const Vector free = before + (1.0 / m) * impulse;
     Vector after = free;
-    for (const std::size_t b : node.planes)
-      after = with_friction(s.boundaries[b], after, bounded(s.boundaries[b], after, touched, end));
+    for (const std::size_t b : node.planes) after = with_friction(s.boundaries[b], after, held_by(s.boundaries[b], after, end));
     // With the final velocity known, every impulse is booked with the same mean velocity.
     const Vector mean = 0.5 * (before + after);
     Vector velocity = free;
     for (const std::size_t b : node.planes) {
-      const Vector held = bounded(s.boundaries[b], velocity, touched, end),
-                   rubbed = with_friction(s.boundaries[b], velocity, held);
+      const Vector held = held_by(s.boundaries[b], velocity, end), rubbed = with_friction(s.boundaries[b], velocity, held);
       boundaries[b].impulse += act(m * (rubbed - velocity), node.position, mean);
       boundaries[b].friction += dot(m * (rubbed - held), mean);
       velocity = rubbed;
@@ -170,11 +179,11 @@ void accelerate_block(Simulation& s, std::size_t number, double dt, double refer
 template <int D>
 void velocities_of_block(Simulation& s, std::size_t number, double reference, Touch touch, double time) {
   for_each_node<D>(s, number, reference, [&](const Node& node, std::array<double, 8>& motion) {
-    const double touches = (touch == Touch::as_accelerated ? motion : node.sums)[Channel::touch];
+    const double touch_sum = (touch == Touch::as_accelerated ? motion : node.sums)[Channel::touch];
     Vector v = (1.0 / node.mass()) * read<D>(node.sums, Channel::momentum);
-    for (const std::size_t b : node.planes) v = bounded(s.boundaries[b], v, touches > 0.0, time);
+    for (const std::size_t b : node.planes) v = bounded(s.boundaries[b], v, touches(touch_sum, s.boundaries[b]), time);
     motion = {};
-    motion[Channel::mass] = node.mass(), motion[Channel::touch] = touches;
+    motion[Channel::mass] = node.mass(), motion[Channel::touch] = touch_sum;
     write<D>(motion, Channel::velocity, v);
   });
 }

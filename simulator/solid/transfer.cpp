@@ -284,22 +284,37 @@ void find_surface_weights(const Particles& ps, int p, const std::array<double, D
     ugimp(offsets, h, no_width, w);
 }
 
-/// Whether a particle reaches a rigid wall: the half axis of its deformed shape is not less than its distance.
+/// Whether a particle reaches a wall: the half axis of its deformed shape is not less than its distance.
 template <int D>
-bool touches_wall(const Simulation& s, const Body& body, int p, const std::array<double, D>& position) {
+bool reaches(const Simulation& s, const Body& body, int p, const std::array<double, D>& position, const Boundary& wall) {
   using L = Layout<D>;
-  for (const Boundary& b : s.boundaries) {
-    if (b.kind != BoundaryKind::rigid_wall) continue;
-    const double distance = (position[b.axis] - b.position) * b.inward;
-    if (distance > 2.0 * s.grid.cell_size) continue;
-    const double* F = body.particles.rest.particle(p) + L::Rest::deformation_gradient * chunk_size + b.axis * D * chunk_size;
-    double stretch = 0.0;  // of the row of F that belongs to the normal
-    for (int a = 0; a < D; ++a) stretch += F[a * chunk_size] * F[a * chunk_size];
-    constexpr double round_off = 1e-9;
-    if (distance <= body.particles.load.at(L::Load::half_width, p) * std::sqrt(stretch) + round_off * s.grid.cell_size)
-      return true;
+  const double distance = (position[wall.axis] - wall.position) * wall.inward;
+  if (distance > 2.0 * s.grid.cell_size) return false;
+  const double* F = body.particles.rest.particle(p) + L::Rest::deformation_gradient * chunk_size + wall.axis * D * chunk_size;
+  double stretch = 0.0;  // of the row of F that belongs to the normal
+  for (int a = 0; a < D; ++a) stretch += F[a * chunk_size] * F[a * chunk_size];
+  constexpr double round_off = 1e-9;
+  return distance <= body.particles.load.at(L::Load::half_width, p) * std::sqrt(stretch) + round_off * s.grid.cell_size;
+}
+
+/// Tells the nodes on the planes of the rigid walls that a particle reaches that it does.
+template <int D>
+void touch_walls(const Simulation& s, const Body& body, int p, const std::array<double, D>& position, const Weights& w,
+                 const BlockPosition& block, const TwoFields& to) {
+  using B = Block<D>;
+  for (const Boundary& wall : s.boundaries) {
+    if (wall.kind != BoundaryKind::rigid_wall || !reaches<D>(s, body, p, position, wall)) continue;
+    const int plane = wall.node - block[wall.axis] * B::side - w.base[wall.axis] + 1;  // its place in the stencil
+    for (int k = 0; k < (D == 3 ? 3 : 1); ++k)
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) {
+          const int at[3] = {i, j, k};
+          if (at[wall.axis] != plane) continue;
+          if (w.value[i][0] * w.value[j][1] * (D == 3 ? w.value[k][2] : 1.0) == 0.0) continue;
+          Lanes& node = to.at(i + 3 * (j + 3 * k))[B::tile_node(w.base[0] + i, w.base[1] + j, D == 3 ? w.base[2] + k : 0)];
+          if (!touches(node[Channel::touch], wall)) node.set(Channel::touch, node[Channel::touch] + touch_number(wall));
+        }
   }
-  return false;
 }
 
 template <Geometry G, Basis basis>
@@ -332,7 +347,6 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
 
       // Channels of momentum and force, by direction: affine momentum m C and stress -V sigma.
       std::array<double, 3> field_force{}, mv{};
-      double touch = 0.0;
       for (int a = 0; a < D; ++a) mv[a] = m * v[a];
       SymmetricTensor<double> f;  // -V sigma
       if (force) {
@@ -344,10 +358,9 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
           for (std::size_t a = 0; a < D; ++a) field_force[a] = m * b[a];
         }
       }
-      if (walls && touches_wall<D>(s, body, static_cast<int>(p), x)) touch = 1.0;
       const double mC = affine ? m : 0.0;
       const auto C = [&](int a, int b) { return mC * from[(L::Motion::affine + D * a + b) * chunk_size]; };
-      const Lanes value = pack(m, mv[0], mv[1], mv[2], field_force[0], field_force[1], field_force[2], touch);
+      const Lanes value = pack(m, mv[0], mv[1], mv[2], field_force[0], field_force[1], field_force[2]);
       std::array<Lanes, D> both;
       if constexpr (D == 3)
         both = {pack(0.0, C(0, 0), C(1, 0), C(2, 0), f.xx, f.xy, f.xz), pack(0.0, C(0, 1), C(1, 1), C(2, 1), f.xy, f.yy, f.yz),
@@ -362,6 +375,7 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
       if constexpr (G == Geometry::axisymmetric)
         for (int k = 0; k < 3; ++k) slope[0][k] = multiply_add(w.hoop[k], pack(0.0, 0.0, 0.0, 0.0, f.zz), slope[0][k]);
       scatter<D>(w, value, slope, to);
+      if (walls) touch_walls<D>(s, body, static_cast<int>(p), x, w, tile.position, to);
     }
     if (!force) return;
     for (std::size_t l = 0; l < body.loads.size(); ++l)
