@@ -108,8 +108,8 @@ std::string row(const Done& d) {
       "| {} | {} | {} | {} | {} | {:.1f} % | {} | {:.1f} | {:.2f} | {:+.2f} | {:+.2f} | {:+.2f} | {:.0e} | {} | {:.1f} |\n",
       d.entry.test, d.entry.label, cell("final_length"), cell("mushroom_diameter"), cell("diameter_at_0.2"),
       100.0 * mean_error(d.summary), profile ? fmt::format("{:.1f} %", 100.0 * profile->value) : "-",
-      100.0 * b.plastic_work / all, 100.0 * b.viscous_work / all, 100.0 * b.transfer / all, 100.0 * b.filter / all,
-      100.0 * b.stress_timing / all, b.residual / all, d.summary.particles, d.summary.wall_time);
+      100.0 * b.internal.plastic_work / all, 100.0 * b.internal.viscous_work / all, 100.0 * b.transfer / all,
+      100.0 * b.filter / all, 100.0 * b.stress_timing / all, b.residual / all, d.summary.particles, d.summary.wall_time);
 }
 
 std::string table(const std::vector<Done>& runs, const std::string& commit) {

@@ -23,9 +23,7 @@ void Ledger::book(const ParticleTally& particles, const NodeTally& nodes, const 
 
 Balance balance(const Ledger& ledger, const InternalEnergy& internal) {
   Balance b;
-  b.kinetic = ledger.state.energy, b.internal = internal.total;
-  b.stress_work = internal.stress_work, b.viscous_work = internal.viscous_work, b.plastic_work = internal.plastic_work;
-  b.elastic = internal.elastic;
+  b.kinetic = ledger.state.energy, b.internal = internal;
   b.external = ledger.external.total().energy;
   Change outside = ledger.external.total() + ledger.internal_force.total();
   for (const Account& a : ledger.boundary) b.boundary += a.total().energy, outside += a.total();

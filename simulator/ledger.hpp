@@ -29,6 +29,7 @@ struct Change {
     return *this;
   }
   friend Change operator+(Change a, const Change& b) { return a += b; }
+  friend Change operator*(double f, const Change& a) { return {f * a.energy, f * a.momentum, f * a.angular_momentum}; }
   friend Change operator-(const Change& a, const Change& b) {
     return {a.energy - b.energy, a.momentum - b.momentum, a.angular_momentum - b.angular_momentum};
   }
@@ -122,30 +123,48 @@ struct Ledger {
             bool external_forces);
 };
 
-/// The internal energy of all particles and how it came about, summed in the order of the bins.
+/// The internal energy of particles, how it came about, and where it is; summed in the order of the bins.
 struct InternalEnergy {
   double total = 0.0;         // J
+  double gained = 0.0;        // J, since the start
   double stress_work = 0.0;   // J, of the stress on the particles since the start
   double viscous_work = 0.0;  // J, of the artificial viscosity
   double plastic_work = 0.0;  // J, part of the stress work
+  double plastic_heat = 0.0;  // J, part of the plastic work that became heat; the other part is stored cold work
+  double thermal = 0.0;       // J, heat that the change of temperature since the start stands for
   double elastic = 0.0;       // J, of the deviatoric stress: s:s/(4 mu)
   double mass = 0.0;          // kg
   InternalEnergy& operator+=(const InternalEnergy& b) {
-    total += b.total, stress_work += b.stress_work, viscous_work += b.viscous_work, plastic_work += b.plastic_work;
+    total += b.total, gained += b.gained, stress_work += b.stress_work, viscous_work += b.viscous_work;
+    plastic_work += b.plastic_work, plastic_heat += b.plastic_heat, thermal += b.thermal;
     elastic += b.elastic, mass += b.mass;
     return *this;
   }
+  friend InternalEnergy operator*(double f, const InternalEnergy& a) {
+    return {f * a.total,        f * a.gained,  f * a.stress_work, f * a.viscous_work, f * a.plastic_work,
+            f * a.plastic_heat, f * a.thermal, f * a.elastic,     f * a.mass};
+  }
+  double stored_cold_work() const { return plastic_work - plastic_heat; }
+  /// What compression has stored without heat: what is left of the energy gained.
+  double cold() const { return gained - thermal - elastic - stored_cold_work(); }
 };
 
-/// One look at the books. Residuals are parts of the peak of kinetic energy, of its momentum, and of that times the extent.
+/// One look at the books.
 struct Balance {
-  double kinetic = 0.0, internal = 0.0, stress_work = 0.0, viscous_work = 0.0, plastic_work = 0.0, elastic = 0.0;  // J
-  double external = 0.0, boundary = 0.0, friction = 0.0;                                                           // J
+  double kinetic = 0.0;                                      // J
+  InternalEnergy internal;                                   // of all bodies
+  double external = 0.0, boundary = 0.0, friction = 0.0;     // J
   double transfer = 0.0, filter = 0.0, stress_timing = 0.0;  // J, numerical
   double outflow = 0.0;                                      // J
   double residual = 0.0;                                     // J, in no bin
   Vector momentum_residual{}, angular_momentum_residual{};
   double numerical() const { return transfer + filter + stress_timing; }
+  friend Balance operator*(double f, const Balance& a) {
+    return {f * a.kinetic,  f * a.internal,          f * a.external,
+            f * a.boundary, f * a.friction,          f * a.transfer,
+            f * a.filter,   f * a.stress_timing,     f * a.outflow,
+            f * a.residual, f * a.momentum_residual, f * a.angular_momentum_residual};
+  }
 };
 Balance balance(const Ledger& ledger, const InternalEnergy& internal);
 

@@ -10,6 +10,7 @@
 
 #include "models/programs/files.hpp"
 #include "models/programs/progress.hpp"
+#include "simulator/gates.hpp"
 #include "simulator/output/checkpoint.hpp"
 #include "simulator/output/figures.hpp"
 #include "simulator/output/gauges.hpp"
@@ -52,62 +53,6 @@ std::string clock_text(double seconds) {
   return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
-/// Stops a run whose books do not close, or that is out of bounds.
-class Gates {
- public:
-  explicit Gates(const GateConfig& limits) : limits_(limits) {}
-
-  void check(const Simulation& s, const Books& books) const {
-    const Balance& b = books.balance;
-    // A body at rest that is loaded has no kinetic energy to speak of, but takes up energy all the same.
-    const double energy = std::max(books.peak_kinetic, std::abs(b.internal - books.initial_internal));
-    // Energies of the particles are kept as totals: every step rounds them.
-    const double rounding =
-        std::numeric_limits<double>::epsilon() * std::abs(b.internal) * std::sqrt(static_cast<double>(s.step + 1));
-    require("residual", "energy that is in no book", b.residual, limits_.residual * energy + rounding, "J", s);
-    const double momentum = std::sqrt(2.0 * (books.mass + books.outflow_mass) * energy) + magnitude(books.boundary_momentum) +
-                            magnitude(books.external_momentum);
-    require("residual", "momentum that is in no book", magnitude(b.momentum_residual), limits_.residual * momentum, "kg m/s",
-            s);
-    require("residual", "angular momentum that is in no book", magnitude(b.angular_momentum_residual),
-            limits_.residual * momentum * reach(s), "kg m^2/s", s);
-    require("numerical", "energy in numerical books", std::abs(b.numerical()), limits_.numerical * energy, "J", s);
-    check_fastest(s);
-  }
-
- private:
-  static void require(std::string_view gate, std::string_view what, double value, double limit, std::string_view unit,
-                      const Simulation& s) {
-    if (value <= limit) return;
-    throw RunFailure(fmt::format("gate {}: {} is {:.6g} {}, {:.6g} {} at most is allowed; step {}, time {:.6g} s", gate, what,
-                                 value, unit, limit, unit, s.step, s.time));
-  }
-  static double reach(const Simulation& s) {
-    double farthest = 0.0;
-    for (const Boundary& b : s.boundaries)  // what has left was booked there
-      if (b.kind == BoundaryKind::outflow) farthest = std::max(farthest, std::abs(b.position));
-    for_each(s, [&](const Body&, const ParticleView& p) { farthest = std::max(farthest, magnitude(p.position())); });
-    return farthest + s.grid.cell_size;
-  }
-  void check_fastest(const Simulation& s) const {
-    for_each(s, [&](const Body& body, const ParticleView& p) {
-      if (magnitude(p.velocity()) <= limits_.fastest) return;
-      const Vector x = p.position();
-      throw RunFailure(
-          fmt::format("gate fastest: a particle of {} at ({:.6g}, {:.6g}, {:.6g}) m moves at {:.6g} m/s, {:.6g} m/s at most is "
-                      "allowed; step {}, time {:.6g} s",
-                      body.name, x[0], x[1], x[2], magnitude(p.velocity()), limits_.fastest, s.step, s.time));
-    });
-  }
-  template <class F>
-  static void for_each(const Simulation& s, F&& f) {
-    for (const Body& body : s.bodies)
-      for (int p = 0; p < body.particles.size; ++p) f(body, ParticleView(body.particles, p));
-  }
-
-  GateConfig limits_;
-};
-
 /// What a run writes, and when.
 class Run {
  public:
@@ -119,7 +64,6 @@ class Run {
         log_(options.directory / "log.txt"),
         gauges_(c, s),
         measures_(c, s),
-        gates_(c.gates),
         row_interval_(c.output.history_interval > 0.0 ? c.output.history_interval : c.end_time / 500.0) {}
 
   RunResult begin() {
@@ -219,7 +163,7 @@ class Run {
     const Books books = books_of(s_);
     history_->add_row(s_, books, gauges_.read(s_));
     row_time_ = s_.time;
-    gates_.check(s_, books);
+    check_gates(case_.gates, s_, books);
   }
 
   void add_snapshot() {
@@ -288,7 +232,6 @@ class Run {
   Log log_;
   Gauges gauges_;
   Measures measures_;
-  Gates gates_;
   double row_interval_;
   std::optional<History> history_;
   std::vector<double> snapshot_times_;

@@ -167,6 +167,7 @@ Body build(const Case& c, std::size_t number) {
   }
 
   State<double> state = stress_free_state(body.material, config.temperature);
+  body.initial_temperature = state.temperature, body.initial_energy = state.energy;
   for (int p = 0; p < ps.size; ++p) {
     const Site& site = sites[static_cast<std::size_t>(p)];
     const std::uint64_t id = static_cast<std::uint64_t>(number) << 48 | lattice.number(site.index);

@@ -36,6 +36,7 @@ struct Body {
   Material material;
   int field = 0;  // the velocity field its particles move in; a second one, for particles that choose it, is the next
   bool locking_cure = false;
+  double initial_temperature = 0.0, initial_energy = 0.0;  // K, J/kg: where the books of heat start
   Particles particles;
   Bins bins;
   std::vector<SurfaceLoad> loads;  // one for each three (two) area columns

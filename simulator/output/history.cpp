@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "models/programs/files.hpp"
+#include "simulator/solid/motion.hpp"
 #include "simulator/solid/stress.hpp"
 
 namespace brisance::simulator {
@@ -23,42 +24,44 @@ constexpr std::string_view first_columns = "time [s],time_step [s]";
 }  // namespace
 
 Books books_of(const Simulation& s) {
-  const InternalEnergy internal = internal_energy(s);
   // The books of the axisymmetric geometry are per radian.
   const double whole = s.geometry == Geometry::axisymmetric ? 2.0 * std::numbers::pi : 1.0;
+  const Ledger& ledger = s.ledger;
   Books books;
-  books.balance = balance(s.ledger, internal);
-  books.state = s.ledger.state;
-  books.initial_internal = whole * s.ledger.initial_internal, books.peak_kinetic = whole * s.ledger.peak_kinetic;
-  books.mass = whole * internal.mass;
-  books.outflow_mass = whole * s.ledger.outflow_mass, books.outflow_momentum = s.ledger.outflow.total().momentum;
-  for (const Account& a : s.ledger.boundary) books.boundary_momentum = books.boundary_momentum + a.total().momentum;
-  books.external_momentum = s.ledger.external.total().momentum;
+  books.dimensions = s.dimensions();
+  books.initial_internal = whole * ledger.initial_internal, books.peak_kinetic = whole * ledger.peak_kinetic;
+  books.outflow_mass = whole * ledger.outflow_mass;
+  books.state = whole * ledger.state;
+  books.internal_force = whole * ledger.internal_force.total(), books.external = whole * ledger.external.total();
+  books.transfer = whole * ledger.transfer.total(), books.filter = whole * ledger.filter.total();
+  books.advection = whole * ledger.advection.total(), books.outflow = whole * ledger.outflow.total();
   for (std::size_t i = 0; i < s.boundaries.size(); ++i) {
-    Change done = s.ledger.boundary[i].total();
-    done.energy *= whole, done.momentum = whole * done.momentum;
-    books.boundaries.emplace_back(s.boundaries[i].name, done);
+    books.boundaries.emplace_back(s.boundaries[i].name, whole * ledger.boundary[i].total());
+    books.boundary += books.boundaries.back().second;
   }
-  Balance& b = books.balance;
-  for (double* energy :
-       {&b.kinetic, &b.internal, &b.stress_work, &b.viscous_work, &b.plastic_work, &b.elastic, &b.external, &b.boundary,
-        &b.friction, &b.transfer, &b.filter, &b.stress_timing, &b.outflow, &b.residual, &books.state.energy})
-    *energy *= whole;
-  for (Vector* v : {&b.momentum_residual, &b.angular_momentum_residual, &books.state.momentum, &books.state.angular_momentum,
-                    &books.boundary_momentum, &books.external_momentum, &books.outflow_momentum})
-    *v = whole * *v;
+  InternalEnergy all;
+  for (const Body& body : s.bodies) {
+    const InternalEnergy internal = internal_energy(s, body);
+    all += internal;
+    books.bodies.push_back({body.name, whole * motion_of(s, body), whole * internal});
+  }
+  books.balance = whole * balance(ledger, all);
   return books;
 }
 
 std::vector<BookEntry> entries_of(const Books& books) {
   const Balance& b = books.balance;
   std::vector<BookEntry> entries = {{"kinetic_energy", "J", b.kinetic},
-                                    {"internal_energy", "J", b.internal},
-                                    {"internal_energy_change", "J", b.internal - books.initial_internal},
-                                    {"stress_work", "J", b.stress_work},
-                                    {"plastic_work", "J", b.plastic_work},
-                                    {"viscous_work", "J", b.viscous_work},
-                                    {"elastic_shear_energy", "J", b.elastic},
+                                    {"internal_energy", "J", b.internal.total},
+                                    {"internal_energy_change", "J", b.internal.total - books.initial_internal},
+                                    {"thermal_energy", "J", b.internal.thermal},
+                                    {"elastic_shear_energy", "J", b.internal.elastic},
+                                    {"stored_cold_work", "J", b.internal.stored_cold_work()},
+                                    {"cold_energy", "J", b.internal.cold()},
+                                    {"stress_work", "J", b.internal.stress_work},
+                                    {"plastic_work", "J", b.internal.plastic_work},
+                                    {"plastic_heat", "J", b.internal.plastic_heat},
+                                    {"viscous_work", "J", b.internal.viscous_work},
                                     {"external_work", "J", b.external},
                                     {"boundary_work", "J", b.boundary},
                                     {"friction_work", "J", b.friction},
@@ -68,17 +71,35 @@ std::vector<BookEntry> entries_of(const Books& books) {
                                     {"filter_energy", "J", b.filter},
                                     {"stress_timing_energy", "J", b.stress_timing},
                                     {"energy_residual", "J", b.residual},
-                                    {"mass", "kg", books.mass}};
-  const auto add = [&](const char* name, const char* unit, const Vector& v) {
-    for (std::size_t a = 0; a < 3; ++a) entries.push_back({std::string(name) + "_" + "xyz"[a], unit, v[a]});
+                                    {"mass", "kg", b.internal.mass}};
+  const bool space = books.dimensions == 3;
+  const auto add = [&](const std::string& name, const char* unit, const Vector& v, std::size_t first, std::size_t last) {
+    for (std::size_t a = first; a <= last; ++a) entries.push_back({name + "_" + "xyz"[a], unit, v[a]});
   };
-  add("momentum", "kg m/s", books.state.momentum);
-  add("boundary_impulse", "kg m/s", books.boundary_momentum);
-  add("external_impulse", "kg m/s", books.external_momentum);
-  add("angular_momentum", "kg m^2/s", books.state.angular_momentum);
+  const auto add_motion = [&](const std::string& momentum, const std::string& angular_momentum, const Change& c) {
+    add(momentum, "kg m/s", c.momentum, 0, space ? 2 : 1);
+    add(angular_momentum, "kg m^2/s", c.angular_momentum, space ? 0 : 2, 2);
+  };
+  add_motion("momentum", "angular_momentum", books.state);
+  const std::pair<const char*, const Change*> causes[] = {{"internal", &books.internal_force}, {"external", &books.external},
+                                                          {"boundary", &books.boundary},       {"transfer", &books.transfer},
+                                                          {"filter", &books.filter},           {"outflow", &books.outflow}};
+  for (const auto& [cause, change] : causes)
+    add_motion(cause + std::string("_impulse"), cause + std::string("_angular_impulse"), *change);
+  add("advection_angular_impulse", "kg m^2/s", books.advection.angular_momentum, space ? 0 : 2, 2);
+  add_motion("momentum_residual", "angular_momentum_residual", {0.0, b.momentum_residual, b.angular_momentum_residual});
   for (const auto& [name, done] : books.boundaries) {
-    add((name + "_impulse").c_str(), "kg m/s", done.momentum);
+    add_motion(name + "_impulse", name + "_angular_impulse", done);
     entries.push_back({name + "_work", "J", done.energy});
+  }
+  for (const BodyBooks& body : books.bodies) {
+    const std::string name = "body_" + body.name;
+    entries.push_back({name + "_mass", "kg", body.internal.mass});
+    entries.push_back({name + "_kinetic_energy", "J", body.state.energy});
+    entries.push_back({name + "_internal_energy", "J", body.internal.total});
+    entries.push_back({name + "_thermal_energy", "J", body.internal.thermal});
+    entries.push_back({name + "_plastic_work", "J", body.internal.plastic_work});
+    add_motion(name + "_momentum", name + "_angular_momentum", body.state);
   }
   return entries;
 }

@@ -11,15 +11,24 @@
 
 namespace brisance::simulator {
 
-/// Energies as a user sees them: of the whole body, whatever the geometry.
-struct Books {
-  Balance balance;
+/// What one body holds.
+struct BodyBooks {
+  std::string name;
   Change state;  // kinetic energy, momentum, angular momentum
-  double initial_internal = 0.0, peak_kinetic = 0.0, mass = 0.0;
-  double outflow_mass = 0.0;  // kg, that has left
-  Vector outflow_momentum{};  // kg m/s, that it carried
-  Vector boundary_momentum{}, external_momentum{};
-  std::vector<std::pair<std::string, Change>> boundaries;  // what each has done since the start, by name
+  InternalEnergy internal;
+};
+
+/// The books as a user sees them: of the whole bodies, whatever the geometry.
+struct Books {
+  int dimensions = 3;
+  Balance balance;
+  double initial_internal = 0.0, peak_kinetic = 0.0;  // J
+  double outflow_mass = 0.0;                          // kg, that has left
+  Change state;                                       // kinetic energy, momentum, angular momentum of all bodies
+  // What has changed it since the start; `boundary` is the sum over the boundaries.
+  Change internal_force, external, boundary, transfer, filter, advection, outflow;
+  std::vector<std::pair<std::string, Change>> boundaries;  // by name
+  std::vector<BodyBooks> bodies;
 };
 Books books_of(const Simulation& s);
 

@@ -52,9 +52,9 @@ std::string in_words(const Summary& s) {
     text += fmt::format("  {:24} {:14.6g} {:12.4g} %\n", name, value, 100.0 * value / peak);
   };
   row("kinetic, peak", s.books.peak_kinetic), row("kinetic", b.kinetic),
-      row("internal, change", b.internal - s.books.initial_internal);
-  row("plastic work", b.plastic_work), row("work from outside", b.external + b.boundary), row("friction", b.friction);
-  row("artificial viscosity", b.viscous_work), row("transfer", b.transfer), row("filter", b.filter);
+      row("internal, change", b.internal.total - s.books.initial_internal), row("thermal, change", b.internal.thermal);
+  row("plastic work", b.internal.plastic_work), row("work from outside", b.external + b.boundary), row("friction", b.friction);
+  row("artificial viscosity", b.internal.viscous_work), row("transfer", b.transfer), row("filter", b.filter);
   row("stress timing", b.stress_timing), row("outflow", b.outflow), row("in no book", b.residual);
   return text;
 }

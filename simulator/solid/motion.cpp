@@ -168,23 +168,25 @@ void accept_motion(Simulation& s, const ParticleResult& particles, const NodeRes
   ++s.step;
 }
 
+Change motion_of(const Simulation& s, const Body& body) {
+  const Particles& p = body.particles;
+  std::vector<Change> list;
+  for (const Bin& bin : body.bins.bins) {
+    Change sum;
+    for (std::uint32_t k = bin.begin; k < bin.end; ++k) {
+      const int i = static_cast<int>(body.bins.order[k]);
+      const double m = p.load.at(0, i);
+      const Vector x = vector_at(p, i, 0), v = vector_at(p, i, p.dimensions);
+      sum += {0.5 * m * dot(v, v), m * v, m * cross(x, v)};
+    }
+    list.push_back(sum);
+  }
+  return ordered_sum(*s.domain, list);
+}
+
 void open_books(Simulation& s) {
   Change state;
-  for (const Body& body : s.bodies) {
-    const Particles& p = body.particles;
-    std::vector<ParticleTally> list;
-    for (const Bin& bin : body.bins.bins) {
-      ParticleTally tally;
-      for (std::uint32_t k = bin.begin; k < bin.end; ++k) {
-        const int i = static_cast<int>(body.bins.order[k]);
-        const double m = p.load.at(0, i);
-        const Vector x = vector_at(p, i, 0), v = vector_at(p, i, p.dimensions);
-        tally.state += {0.5 * m * dot(v, v), m * v, m * cross(x, v)};
-      }
-      list.push_back(tally);
-    }
-    state += ordered_sum(*s.domain, list).state;
-  }
+  for (const Body& body : s.bodies) state += motion_of(s, body);
   Ledger& ledger = s.ledger;
   ledger = {};
   ledger.boundary.resize(s.boundaries.size()), ledger.friction.resize(s.boundaries.size());

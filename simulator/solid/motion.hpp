@@ -14,6 +14,8 @@ void place_particles(Simulation& s);
 void activate_blocks(Simulation& s);
 /// Makes the motion that a step has prepared the state, and books what it did.
 void accept_motion(Simulation& s, const ParticleResult& particles, const NodeResult& nodes, double dt);
+/// Kinetic energy, momentum and angular momentum of a body's particles, summed in the order of the bins.
+Change motion_of(const Simulation& s, const Body& body);
 /// Opening entries of the ledger, from the state of the particles.
 void open_books(Simulation& s);
 

@@ -82,6 +82,20 @@ TEST(RunCommand, AFullDiskEndsTheRunAndNamesTheFile) {
   EXPECT_TRUE(contains(a.err, "last checkpoint: ")) << a.err;
 }
 
+TEST(RunCommand, BooksThatDoNotCloseEndTheRunWithAReport) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
+                    run = (directory / "run").string();
+  // Nothing closes better than to round-off.
+  const Answer a = call({"run", file, "-o", run, "--set", "gates.residual=1e-30", "--set", "output.checkpoint_steps=1"});
+  EXPECT_EQ(a.code, failed_while_running);
+  EXPECT_TRUE(contains(a.err, "gate residual: ")) << a.err;
+  EXPECT_TRUE(contains(a.err, "last checkpoint: " + run)) << a.err;
+  EXPECT_TRUE(contains(a.out, "in no book")) << a.out;
+  const std::string summary = text_of(directory / "run" / "summary.json");
+  EXPECT_TRUE(contains(summary, "\"ending\": \"failed\"") && contains(summary, "gate residual: ")) << summary;
+}
+
 TEST(ResumeCommand, GoesOnUntilALaterTimeAndReportTellsTheSame) {
   const fs::path directory = scratch();
   const std::string file = write_text(directory / "bar.toml", small_bar(no_figures + "[[measure]]\nkind = \"final_length\"\n"))

@@ -153,7 +153,7 @@ Fingerprint on_threads(const Case& c, int threads, const std::function<void(Simu
     for (const Column& column : b.particles.columns())
       for (int p = 0; p < b.particles.size; ++p)
         EXPECT_TRUE(std::isfinite(b.particles.set(column.set).at(column.index, p))) << column.name;
-  EXPECT_GT(f.books.plastic_work, 0.0);
+  EXPECT_GT(f.books.internal.plastic_work, 0.0);
   return f;
 }
 

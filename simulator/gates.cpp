@@ -1,0 +1,76 @@
+#include "simulator/gates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simulator/output/fields.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+template <class F>
+void for_each_particle(const Simulation& s, F&& f) {
+  for (const Body& body : s.bodies)
+    for (int p = 0; p < body.particles.size; ++p) f(body, ParticleView(body.particles, p));
+}
+
+/// The farthest place that angular momentum is counted from, m.
+double reach(const Simulation& s) {
+  double farthest = 0.0;
+  for (const Boundary& b : s.boundaries)  // what has left was booked there
+    if (b.kind == BoundaryKind::outflow) farthest = std::max(farthest, std::abs(b.position));
+  for_each_particle(s, [&](const Body&, const ParticleView& p) { farthest = std::max(farthest, magnitude(p.position())); });
+  return farthest + s.grid.cell_size;
+}
+
+/// The components of a momentum along which action has to be reaction: a mirror or the axis takes what is normal to it.
+Vector unmirrored(const Simulation& s, Vector momentum) {
+  for (const Boundary& b : s.boundaries)
+    if (b.is_mirror()) momentum[static_cast<std::size_t>(b.axis)] = 0.0;
+  return momentum;
+}
+
+void check_fastest(double limit, const Simulation& s) {
+  for_each_particle(s, [&](const Body& body, const ParticleView& p) {
+    const double speed = magnitude(p.velocity());
+    if (speed <= limit) return;
+    const Vector x = p.position();
+    throw GateExceeded(
+        fmt::format("gate fastest: a particle of {} at ({:.6g}, {:.6g}, {:.6g}) m moves at {:.6g} m/s, {:.6g} m/s at most is "
+                    "allowed; step {}, time {:.6g} s",
+                    body.name, x[0], x[1], x[2], speed, limit, s.step, s.time));
+  });
+}
+
+}  // namespace
+
+void check_gates(const GateConfig& limits, const Simulation& s, const Books& books) {
+  const auto require = [&](std::string_view gate, std::string_view what, double value, double limit, std::string_view unit) {
+    if (value <= limit) return;
+    throw GateExceeded(fmt::format("gate {}: {} is {:.6g} {}, {:.6g} {} at most is allowed; step {}, time {:.6g} s", gate, what,
+                                   value, unit, limit, unit, s.step, s.time));
+  };
+  const Balance& b = books.balance;
+  // A body at rest that is loaded has no kinetic energy to speak of, but takes up energy all the same.
+  const double energy = std::max(books.peak_kinetic, std::abs(b.internal.total - books.initial_internal));
+  // Energies of the particles are kept as totals: every step rounds them.
+  const double rounding =
+      std::numeric_limits<double>::epsilon() * std::abs(b.internal.total) * std::sqrt(static_cast<double>(s.step + 1));
+  require("residual", "energy that is in no book", b.residual, limits.residual * energy + rounding, "J");
+  double momentum = std::sqrt(2.0 * (b.internal.mass + books.outflow_mass) * energy) + magnitude(books.external.momentum);
+  for (const auto& [name, done] : books.boundaries) momentum += magnitude(done.momentum);
+  require("residual", "momentum that is in no book", magnitude(b.momentum_residual), limits.residual * momentum, "kg m/s");
+  require("residual", "angular momentum that is in no book", magnitude(b.angular_momentum_residual),
+          limits.residual * momentum * reach(s), "kg m^2/s");
+  require("residual", "momentum that the way between particles and grid has made",
+          magnitude(unmirrored(s, books.transfer.momentum)), limits.residual * momentum, "kg m/s");
+  require("residual", "momentum that internal forces have made", magnitude(unmirrored(s, books.internal_force.momentum)),
+          limits.residual * momentum, "kg m/s");
+  require("numerical", "energy in numerical books", std::abs(b.numerical()), limits.numerical * energy, "J");
+  check_fastest(limits.fastest, s);
+}
+
+}  // namespace brisance::simulator
