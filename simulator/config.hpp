@@ -16,7 +16,11 @@
 
 namespace brisance::simulator {
 
-enum class Geometry { plane, axisymmetric, three_dimensional };
+/// The first three hold solids and gas, those of one dimension gas alone.
+enum class Geometry { plane, axisymmetric, three_dimensional, planar_1d, cylindrical_1d, spherical_1d };
+constexpr int number_of_dimensions(Geometry g) {
+  return g == Geometry::three_dimensional ? 3 : g == Geometry::plane || g == Geometry::axisymmetric ? 2 : 1;
+}
 enum class Basis { quadratic_spline, ugimp };
 /// When the stress is updated within the step: from the velocities mapped back after the particles have moved (musl), from the
 /// new grid velocities (usl), or from the grid velocities before the forces act (usf).
@@ -191,7 +195,7 @@ struct Case {
   OutputConfig output;
   GateConfig gates;
 
-  int dimensions() const { return geometry == Geometry::three_dimensional ? 3 : 2; }
+  int dimensions() const { return number_of_dimensions(geometry); }
 };
 
 }  // namespace brisance::simulator
@@ -199,8 +203,9 @@ struct Case {
 namespace brisance {
 
 template <>
-inline constexpr std::array choices<simulator::Geometry> = {std::string_view{"plane"}, std::string_view{"axisymmetric"},
-                                                            std::string_view{"three_dimensional"}};
+inline constexpr std::array choices<simulator::Geometry> = {std::string_view{"plane"},        std::string_view{"axisymmetric"},
+                                                            std::string_view{"three_dimensional"}, std::string_view{"planar_1d"},
+                                                            std::string_view{"cylindrical_1d"},    std::string_view{"spherical_1d"}};
 template <>
 inline constexpr std::array choices<simulator::Basis> = {std::string_view{"quadratic_spline"}, std::string_view{"ugimp"}};
 template <>

@@ -78,7 +78,7 @@ struct Simulation {
   Ledger ledger;
   PhaseTimes times;  // of this process, since the start or restart
 
-  int dimensions() const { return geometry == Geometry::three_dimensional ? 3 : 2; }
+  int dimensions() const { return number_of_dimensions(geometry); }
   bool has_external_forces() const {
     if (body_force || dot(gravity, gravity) > 0.0) return true;
     for (const Body& b : bodies)

@@ -1,0 +1,309 @@
+#include "simulator/gas/equilibrium.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "models/equation_of_state/thermodynamics.hpp"
+#include "simulator/parallel.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+namespace eos = equation_of_state;
+
+template <class Real>
+eos::PressureSlopes<Real> slopes_of(const EquationOfState& law, const Real& density, const Real& energy) {
+  return std::visit([&](const auto& l) { return eos::pressure_slopes(l, density, energy); }, law);
+}
+double least_bulk_modulus(const EquationOfState& law, double density) {
+  const double c = std::visit([](const auto& l) { return l.lowest_sound_speed(); }, law);
+  return density * std::max(c * c, 1e-12);
+}
+
+/// One lane, with certainty: the volume that the fluids take at a pressure falls with it, and the pressures they have now
+/// bracket the one sought.
+double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, double room, int l) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t r = 0; r < fluids.size(); ++r) {
+    const double m = shares[r].mass[l], v = shares[r].volume[l];
+    if (!(v > 0.0)) continue;
+    const double p = eos::pressure(fluids[r].equation_of_state, m / v, shares[r].internal[l] / m);
+    low = std::min(low, p), high = std::max(high, p);
+  }
+  // Specific volume of a fluid that has worked against p: P(1/v, e0 - p (v - v0)) = p. The left side falls with v.
+  const auto volume_at = [&](std::size_t r, double p) {
+    const double m = shares[r].mass[l], v0 = shares[r].volume[l] / m, e0 = shares[r].internal[l] / m;
+    const auto excess = [&](double v) { return eos::pressure(fluids[r].equation_of_state, 1.0 / v, e0 - p * (v - v0)) - p; };
+    double a = v0, b = v0;
+    for (int n = 0; n < 200 && excess(a) < 0.0; ++n) b = a, a *= 0.7;
+    for (int n = 0; n < 200 && excess(b) > 0.0; ++n) a = b, b *= 1.4;
+    for (int n = 0; n < 200 && b - a > 1e-15 * b; ++n) {
+      const double middle = 0.5 * (a + b);
+      (excess(middle) > 0.0 ? a : b) = middle;
+    }
+    return m * 0.5 * (a + b);
+  };
+  for (int n = 0; n < 200 && high - low > 1e-15 * (std::abs(high) + std::abs(low)); ++n) {
+    const double p = 0.5 * (low + high);
+    double sum = 0.0;
+    for (std::size_t r = 0; r < fluids.size(); ++r)
+      if (shares[r].volume[l] > 0.0) sum += volume_at(r, p);
+    (sum > room ? low : high) = p;
+  }
+  const double p = 0.5 * (low + high);
+  for (std::size_t r = 0; r < fluids.size(); ++r) {
+    const double before = shares[r].volume[l];
+    if (!(before > 0.0)) continue;
+    const double now = volume_at(r, p);
+    shares[r].internal.set(l, shares[r].internal[l] - p * (now - before));
+    shares[r].volume.set(l, now);
+  }
+  return p;
+}
+
+/// e(rho, p), J/kg, to the last digits: pressures are linear in the energy, or nearly.
+double energy_of(const EquationOfState& law, double density, double pressure) {
+  double e = eos::energy_at_pressure(law, density, pressure);
+  for (int n = 0; n < 3; ++n) {
+    const auto at = slopes_of(law, density, e);
+    if (at.per_energy > 0.0) e += (pressure - at.pressure) / at.per_energy;
+  }
+  return e;
+}
+
+struct Largest {
+  double wave = 0.0, motion = 0.0;
+};
+
+template <int D>
+Largest equilibrium_of(Gas& gas, std::size_t block) {
+  const std::size_t fluids = gas.fluids.size();
+  Largest largest;
+  std::vector<FluidShare<Lanes>> shares(fluids);
+  const double inverse_cell_size = 1.0 / gas.cells.cell_size;
+  for (int k = 0; k < gas.cells.packs(); ++k) {
+    const std::uint8_t inside = cells_inside(gas.cells, block, k);
+    if (inside == 0) continue;
+    const LanesMask active = lanes_of(inside);
+    const Lanes room = gas.content.at(block, Content::room)[k];
+    Lanes mass(0.0);
+    for (std::size_t r = 0; r < fluids; ++r)
+      mass += shares[r].mass =
+          gas.content.at(block, Content::fluids(D) + static_cast<int>(r) * gas.fluid_quantities() + Content::mass)[k];
+    const Lanes density = mass / room;
+    Lanes u[D], speed(0.0), motion(0.0), kinetic(0.0);
+    for (int a = 0; a < D; ++a) {
+      const Lanes p = gas.content.at(block, Content::momentum + a)[k];
+      u[a] = p / mass, kinetic += 0.5 * p * u[a];
+      speed += abs(u[a]), motion = max(motion, abs(u[a]));
+    }
+    const Lanes internal = gas.content.at(block, Content::energy)[k] - kinetic;
+    Lanes pressure, bulk, gruneisen(0.0);
+    if (fluids == 1) {
+      const auto at = slopes_of(gas.fluids[0].equation_of_state, density, Lanes(internal / mass));
+      pressure = at.pressure, gruneisen = at.per_energy / density;
+      bulk = density * at.per_density + pressure * gruneisen;
+      bulk = max(bulk, Lanes(least_bulk_modulus(gas.fluids[0].equation_of_state, 1.0)) * density);
+    } else {
+      for (std::size_t r = 0; r < fluids; ++r) {
+        const int first = Content::fluids(D) + 3 * static_cast<int>(r);
+        shares[r].volume = gas.content.at(block, first + Content::volume)[k];
+        shares[r].internal = gas.content.at(block, first + Content::internal)[k];
+      }
+      // Where velocities have mixed, kinetic energy has become heat.
+      Lanes heat = internal;
+      for (std::size_t r = 0; r < fluids; ++r) heat -= shares[r].internal;
+      const Lanes scale = internal / (internal - heat);  // rounding, or what flattening did not prevent
+      for (std::size_t r = 0; r < fluids; ++r)
+        shares[r].internal = select(heat > 0.0, shares[r].internal + shares[r].mass / mass * heat, shares[r].internal * scale);
+      pressure = equilibrate(gas.fluids, shares, room);
+      Lanes compliance(0.0);
+      for (std::size_t r = 0; r < fluids; ++r) {
+        const int first = Content::fluids(D) + 3 * static_cast<int>(r);
+        Lanes& volume = gas.content.at(block, first + Content::volume)[k];
+        Lanes& energy = gas.content.at(block, first + Content::internal)[k];
+        volume = select(active, shares[r].volume, volume), energy = select(active, shares[r].internal, energy);
+        const Lanes share = shares[r].volume / shares[r].bulk_modulus;
+        compliance += share;
+        gruneisen += shares[r].volume / room * shares[r].gruneisen;
+      }
+      for (std::size_t r = 0; r < fluids; ++r)
+        gas.primitive.at(block, Primitive::count(D) + static_cast<int>(r))[k] =
+            shares[r].volume / (shares[r].bulk_modulus * compliance);
+      bulk = room / compliance;
+    }
+    const Lanes sound = sqrt(bulk / density);
+    const auto put = [&](int quantity, const Lanes& value) {
+      Lanes& at = gas.primitive.at(block, quantity)[k];
+      at = select(active, value, at);
+    };
+    put(Primitive::density, density), put(Primitive::pressure, pressure), put(Primitive::sound_speed, sound);
+    put(Primitive::gruneisen, gruneisen);
+    for (int a = 0; a < D; ++a) put(Primitive::velocity + a, u[a]);
+    const Lanes wave = (speed + static_cast<double>(D) * sound) * inverse_cell_size;
+    for (int l = 0; l < 8; ++l) {
+      if (!(inside >> l & 1)) continue;
+      // A state that is no state must not pass for one without waves.
+      largest.wave = wave[l] < largest.wave ? largest.wave : wave[l];
+      largest.motion = std::max(largest.motion, motion[l] * inverse_cell_size);
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room,
+                  EquilibriumCount* count) {
+  const std::size_t n = fluids.size();
+  constexpr std::size_t most = 16;
+  std::array<Lanes, most> v, v0, e0, m;
+  std::array<LanesMask, most> present;
+  Lanes pressure(0.0), weight(0.0), lowest(1e300), highest(-1e300), stiffest(0.0);
+  // Fluids without volume are told by it; their lanes compute with the numbers of the first fluid there is.
+  for (std::size_t r = 0; r < n; ++r) {
+    present[r] = shares[r].volume > 0.0;
+    m[r] = select(present[r], shares[r].mass, Lanes(0.0));
+    v0[r] = v[r] = select(present[r], shares[r].volume / shares[r].mass, Lanes(1.0 / fluids[r].usual_density));
+    e0[r] = select(present[r], shares[r].internal / shares[r].mass, Lanes(fluids[r].usual_energy));
+    const auto at = slopes_of(fluids[r].equation_of_state, Lanes(1.0 / v[r]), e0[r]);
+    const Lanes bulk = max(Lanes(at.per_density / v[r] + at.pressure * at.per_energy * v[r]),
+                           Lanes(least_bulk_modulus(fluids[r].equation_of_state, 1.0)) / v[r]);
+    shares[r].bulk_modulus = bulk, shares[r].gruneisen = at.per_energy * v[r];
+    const Lanes compliance = m[r] * v[r] / bulk;
+    pressure += select(present[r], compliance * at.pressure, Lanes(0.0)), weight += compliance;
+    lowest = select(present[r], min(lowest, at.pressure), lowest);
+    highest = select(present[r], max(highest, at.pressure), highest);
+    stiffest = select(present[r], max(stiffest, bulk), stiffest);
+  }
+  pressure /= weight;
+  const Lanes tolerance = 1e-14 * stiffest;
+  LanesMask done = highest - lowest <= tolerance;
+  constexpr int most_iterations = 15;
+  for (int i = 0; i < most_iterations && !all(done); ++i) {
+    // Newton for all volumes and the pressure at once: the matrix is an arrow.
+    std::array<Lanes, most> residual, stiffness, push;
+    Lanes sum(0.0), free(0.0), slope(0.0);
+    for (std::size_t r = 0; r < n; ++r) {
+      const auto at = slopes_of(fluids[r].equation_of_state, Lanes(1.0 / v[r]), Lanes(e0[r] - pressure * (v[r] - v0[r])));
+      residual[r] = at.pressure - pressure;
+      stiffness[r] = at.per_density / (v[r] * v[r]) + pressure * at.per_energy;  // -dP/dv along the path of work
+      stiffness[r] = max(stiffness[r], Lanes(1e-3) * shares[r].bulk_modulus / v[r]);
+      push[r] = 1.0 + at.per_energy * (v[r] - v0[r]);
+      sum += m[r] * v[r], free += m[r] * residual[r] / stiffness[r], slope += m[r] * push[r] / stiffness[r];
+    }
+    const Lanes step = (free + sum - room) / slope;
+    const Lanes next = min(max(Lanes(pressure + step), lowest), highest);
+    Lanes largest(0.0);
+    for (std::size_t r = 0; r < n; ++r) {
+      const Lanes change = (residual[r] - push[r] * (next - pressure)) / stiffness[r];
+      const Lanes limited = min(max(Lanes(v[r] + change), Lanes(0.5 * v[r])), Lanes(2.0 * v[r]));
+      largest = max(largest, select(present[r], abs(limited - v[r]) / v[r] * shares[r].bulk_modulus, Lanes(0.0)));
+      v[r] = select(done, v[r], limited);
+    }
+    if (count)
+      for (int l = 0; l < 8; ++l) count->iterations += done[l] ? 0.0 : 1.0;
+    const Lanes moved = abs(next - pressure);
+    pressure = select(done, pressure, next);
+    done |= (moved <= tolerance) & (largest <= 1e2 * tolerance);
+  }
+  if (count) count->cells += 8.0;
+  Lanes largest_volume(0.0), volumes(0.0), energies(0.0), before(0.0);
+  for (std::size_t r = 0; r < n; ++r) before += select(present[r], shares[r].internal, Lanes(0.0));
+  std::vector<FluidShare<Lanes>> original;
+  if (!all(done)) original = shares;
+  for (std::size_t r = 0; r < n; ++r) {
+    shares[r].internal = select(present[r], shares[r].internal - m[r] * pressure * (v[r] - v0[r]), shares[r].internal);
+    shares[r].volume = select(present[r], m[r] * v[r], shares[r].volume);
+  }
+  for (int l = 0; l < 8 && !all(done); ++l) {
+    if (done[l] || !std::isfinite(room[l]) || !std::isfinite(pressure[l])) continue;
+    for (std::size_t r = 0; r < n; ++r)
+      shares[r].internal.set(l, original[r].internal[l]), shares[r].volume.set(l, original[r].volume[l]);
+    pressure.set(l, bisect(fluids, shares, room[l], l));
+    if (count) count->bisected += 1.0;
+  }
+  // What rounding left over goes to the fluid with most volume.
+  std::array<LanesMask, most> majority;
+  for (std::size_t r = 0; r < n; ++r)
+    volumes += shares[r].volume, energies += select(present[r], shares[r].internal, Lanes(0.0)),
+        largest_volume = max(largest_volume, shares[r].volume);
+  LanesMask taken(false);
+  for (std::size_t r = 0; r < n; ++r) {
+    majority[r] = (shares[r].volume == largest_volume) & !taken;
+    taken |= majority[r];
+    shares[r].volume = select(majority[r], shares[r].volume + (room - volumes), shares[r].volume);
+    shares[r].internal = select(majority[r], shares[r].internal + (before - energies), shares[r].internal);
+    const Lanes density = select(present[r], shares[r].mass / shares[r].volume, Lanes(fluids[r].usual_density));
+    const Lanes energy = select(present[r], shares[r].internal / shares[r].mass, Lanes(fluids[r].usual_energy));
+    const auto at = slopes_of(fluids[r].equation_of_state, density, energy);
+    shares[r].bulk_modulus = max(Lanes(density * at.per_density + at.pressure * at.per_energy / density),
+                                 Lanes(least_bulk_modulus(fluids[r].equation_of_state, 1.0)) * density);
+    shares[r].gruneisen = at.per_energy / density;
+  }
+  return pressure;
+}
+
+void give_usual_state(Fluid& fluid) {
+  constexpr double atmosphere = 101325.0, warm = 300.0;  // Pa, K
+  fluid.usual_density = eos::density_at(fluid.equation_of_state, atmosphere, warm);
+  fluid.usual_energy = eos::energy(fluid.equation_of_state, fluid.usual_density, warm);
+}
+
+void find_equilibrium(Gas& gas) {
+  std::vector<Largest> largest(gas.cells.mine.size());
+  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
+    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
+    largest[i] = gas.dimensions() == 1   ? equilibrium_of<1>(gas, block)
+                 : gas.dimensions() == 2 ? equilibrium_of<2>(gas, block)
+                                         : equilibrium_of<3>(gas, block);
+  });
+  gas.wave_rate = gas.motion_rate = 0.0;
+  for (const Largest& l : largest) {
+    gas.wave_rate = l.wave < gas.wave_rate ? gas.wave_rate : l.wave;
+    gas.motion_rate = std::max(gas.motion_rate, l.motion);
+  }
+}
+
+void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell, const Filling& filling) {
+  const int D = gas.dimensions();
+  const auto i = static_cast<std::size_t>(gas.cells.index(block, cell)[0] - gas.cells.metric.first);
+  const double room = gas.cells.metric.volume[i], mass = filling.density * room;
+  const EquationOfState& law = gas.fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state;
+  const double internal = mass * energy_of(law, filling.density, filling.pressure);
+  double kinetic = 0.0;
+  for (int a = 0; a < D; ++a) {
+    const double u = filling.velocity[static_cast<std::size_t>(a)];
+    content.cell(block, Content::momentum + a, cell) = mass * u;
+    kinetic += 0.5 * mass * u * u;
+  }
+  content.cell(block, Content::room, cell) = room;
+  content.cell(block, Content::energy, cell) = internal + kinetic;
+  for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r) {
+    const int first = Content::fluids(D) + r * gas.fluid_quantities();
+    const bool here = r == filling.fluid;
+    content.cell(block, first + Content::mass, cell) = here ? mass : 0.0;
+    if (gas.fluid_quantities() == 1) continue;
+    content.cell(block, first + Content::volume, cell) = here ? room : 0.0;
+    content.cell(block, first + Content::internal, cell) = here ? internal : 0.0;
+  }
+}
+
+void write_primitive(Gas& gas, std::size_t block, int cell, const Filling& filling) {
+  const EquationOfState& law = gas.fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state;
+  const double energy = energy_of(law, filling.density, filling.pressure);
+  CellSet& set = gas.primitive;
+  set.cell(block, Primitive::density, cell) = filling.density;
+  set.cell(block, Primitive::pressure, cell) = filling.pressure;
+  set.cell(block, Primitive::sound_speed, cell) = std::sqrt(eos::sound_speed_squared(law, filling.density, energy));
+  set.cell(block, Primitive::gruneisen, cell) = eos::gruneisen_coefficient(law, filling.density, energy);
+  for (int a = 0; a < gas.dimensions(); ++a)
+    set.cell(block, Primitive::velocity + a, cell) = filling.velocity[static_cast<std::size_t>(a)];
+  for (int r = 0; gas.fluids.size() > 1 && r < static_cast<int>(gas.fluids.size()); ++r)
+    set.cell(block, Primitive::count(gas.dimensions()) + r, cell) = r == filling.fluid ? 1.0 : 0.0;
+}
+
+}  // namespace brisance::simulator::gas

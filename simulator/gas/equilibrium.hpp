@@ -1,0 +1,37 @@
+#pragma once
+// Pressure equilibrium: from what a cell holds to density, pressure, sound speed and the shares of its fluids in a change of
+// volume. One fluid: its equation of state. Several: the pressure at which their volumes fill the cell, each fluid doing work
+// against that pressure, so that the energy of the cell stays what it is.
+
+#include "simulator/gas/gas.hpp"
+
+namespace brisance::simulator::gas {
+
+/// Fluids are absent below this part of a cell's volume.
+inline constexpr double least_fraction = 1e-12;
+
+/// Fluids of one cell (or of eight side by side) that are brought to one pressure.
+template <class Real>
+struct FluidShare {
+  Real mass, volume, internal;   // kg, m^3, J; volume and internal are changed
+  Real bulk_modulus, gruneisen;  // Pa, 1; set
+};
+struct EquilibriumCount {
+  double iterations = 0.0, cells = 0.0, bisected = 0.0;
+};
+/// Moves volumes and energies until all fluids have one pressure (Pa), which it returns. Work is done against that final
+/// pressure, so the sums of volumes and of energies do not change. Absent fluids (no mass) are left alone.
+Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room,
+                  EquilibriumCount* count = nullptr);
+
+/// A state that the fluid can have, for lanes without it.
+void give_usual_state(Fluid& fluid);
+
+/// Primitives of all own blocks, with the largest rates of waves and motion.
+void find_equilibrium(Gas& gas);
+
+/// Content and primitives of a cell of one fluid.
+void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell, const Filling& filling);
+void write_primitive(Gas& gas, std::size_t block, int cell, const Filling& filling);
+
+}  // namespace brisance::simulator::gas

@@ -1,0 +1,125 @@
+#include "simulator/gas/gas.hpp"
+
+#include <algorithm>
+
+#include "simulator/domain/message.hpp"
+#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/ghosts.hpp"
+#include "simulator/gas/lagrangian.hpp"
+#include "simulator/gas/passages.hpp"
+#include "simulator/gas/remap.hpp"
+#include "simulator/parallel.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+/// The room of a cell is what it was before the step, to the last bit.
+void settle(Gas& gas) {
+  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
+    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
+    std::copy_n(gas.content.at(block, Content::room), gas.cells.packs(), gas.moved.at(block, Content::room));
+  });
+  std::swap(gas.content, gas.moved);
+}
+
+}  // namespace
+
+void fill(Gas& gas, const FillingFunction& filling, Domain& domain) {
+  const int packs = gas.cells.packs(), D = gas.dimensions();
+  const std::size_t blocks = gas.cells.blocks.size();
+  for (CellSet* set : {&gas.content, &gas.moved, &gas.next}) {
+    *set = CellSet(gas.contents(), packs);
+    set->resize(blocks);
+  }
+  gas.primitive = CellSet(Primitive::count(D) + (gas.fluids.size() > 1 ? static_cast<int>(gas.fluids.size()) : 0), packs);
+  gas.half_step = CellSet(HalfStep::count(D), packs);
+  gas.primitive.resize(blocks), gas.half_step.resize(blocks);
+  gas.swept.assign(blocks * static_cast<std::size_t>(D * (D == 3 ? 8 : 1) * line_faces), Lanes(0.0));
+  open_passages(gas);
+  for (Fluid& fluid : gas.fluids) give_usual_state(fluid);
+  for (std::size_t block = 0; block < blocks; ++block)
+    for (int c = 0; c < 8 * packs; ++c) {
+      // Cells that are not of the box hold something all the same: they are computed with, to no effect.
+      Vector x = gas.cells.centre(block, c);
+      for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a)
+        x[a] = std::clamp(x[a], (gas.cells.lower[a] + 0.5) * gas.cells.cell_size,
+                          (gas.cells.upper[a] - 0.5) * gas.cells.cell_size);
+      const Filling f = filling(x, gas.time);
+      for (CellSet* set : {&gas.content, &gas.moved, &gas.next}) write_content(gas, *set, block, c, f);
+      write_primitive(gas, block, c, f);
+    }
+  begin(gas, domain);
+}
+
+void begin(Gas& gas, Domain& domain) {
+  find_equilibrium(gas);
+  gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
+  share_primitives(gas, gas.time, domain);
+}
+
+double largest_step(const Gas& gas, double courant) {
+  constexpr double most_swept = 0.5;  // of a cell, through one face
+  return std::min(courant / gas.wave_rate, most_swept / std::max(gas.motion_rate, 1e-300));
+}
+
+Outcome advance(Gas& gas, double dt, Domain& domain) {
+  clear_step(gas.passages);
+  advance_half_step(gas, dt);
+  share_half_step(gas, domain);
+  const bool good = lagrangian_phase(gas, dt);
+  if (domain.maximum(good ? 0.0 : 1.0) > 0.0) return Outcome::rejected;
+  // The order of the axes turns around with every step, so that none is always first.
+  const int D = gas.dimensions();
+  for (int n = 0; n < D; ++n) {
+    share_moved(gas, gas.time + dt, domain);
+    const bool held = sweep(gas, gas.step % 2 == 0 ? n : D - 1 - n);
+    if (domain.maximum(held ? 0.0 : 1.0) > 0.0) return Outcome::rejected;
+    std::swap(gas.moved, gas.next);
+  }
+  settle(gas);
+  book_step(gas.passages);
+  gas.time += dt, ++gas.step;
+  begin(gas, domain);
+  return Outcome::done;
+}
+
+Totals totals(const Gas& gas, Domain& domain) {
+  const int D = gas.dimensions();
+  const std::size_t fluids = gas.fluids.size();
+  const std::size_t numbers = fluids + 5;
+  std::vector<double> sums;  // of each own block
+  for (const std::int32_t b : gas.cells.mine) {
+    const auto block = static_cast<std::size_t>(b);
+    std::vector<double> sum(numbers, 0.0);
+    for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
+      if (gas.cells.partial[block] && !gas.cells.contains(gas.cells.index(block, c))) continue;
+      double mass = 0.0, square = 0.0;
+      for (std::size_t r = 0; r < fluids; ++r) {
+        const double m = gas.content.cell(block, Content::fluids(D) + static_cast<int>(r) * gas.fluid_quantities(), c);
+        sum[r] += m, mass += m;
+      }
+      for (int a = 0; a < D; ++a) {
+        const double p = gas.content.cell(block, Content::momentum + a, c);
+        sum[fluids + static_cast<std::size_t>(a)] += p, square += p * p;
+      }
+      sum[fluids + 3] += gas.content.cell(block, Content::energy, c);
+      sum[fluids + 4] += 0.5 * square / mass;
+    }
+    sums.insert(sums.end(), sum.begin(), sum.end());
+  }
+  // Ranks own the blocks in Morton order, so the sums of all follow each other as those of one rank would.
+  std::vector<Message> all{Message{}};
+  append(all[0], sums.data(), sums.size());
+  if (domain.size() > 1) all = all_gather(domain, all[0]);
+  std::vector<CompensatedSum> total(numbers);
+  for (const Message& message : all)
+    for (MessageReader reader(message); !reader.at_end();)
+      for (CompensatedSum& t : total) t.add(reader.read<double>());
+  Totals result;
+  for (std::size_t r = 0; r < fluids; ++r) result.mass.push_back(total[r].value());
+  for (std::size_t a = 0; a < 3; ++a) result.momentum[a] = total[fluids + a].value();
+  result.energy = total[fluids + 3].value(), result.kinetic = total[fluids + 4].value();
+  return result;
+}
+
+}  // namespace brisance::simulator::gas

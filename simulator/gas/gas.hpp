@@ -1,0 +1,138 @@
+#pragma once
+// The gas between two steps: any number of fluids that share one velocity and one pressure in each cell, on the cells of the
+// grid. Conservative ICE: a cell-centred Lagrangian phase driven by the velocities and pressures of the faces, then a remap of
+// what the faces have swept. Mass of each fluid, momentum, total energy and the volumes of the fluids are conserved to
+// round-off: every one of them leaves a cell only through a face, and enters the next one there.
+//
+// The scheme keeps the skeleton of ICE (Kashiwa et al., LA-UR-93-3922, 1993) with the acoustic face states of
+// Lagrange-projection schemes (Chalons, Girardin & Kokh, J. Comput. Phys. 335 (2017) 885) and total instead of internal energy.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "models/equation_of_state/equation_of_state.hpp"
+#include "simulator/gas/cells.hpp"
+#include "simulator/ledger.hpp"
+
+namespace brisance::simulator::gas {
+
+/// What one cell, or the world beyond a boundary, is filled with.
+struct Filling {
+  int fluid = 0;
+  double density = 0.0;   // kg/m^3
+  double pressure = 0.0;  // Pa
+  Vector velocity{};      // m/s
+};
+using FillingFunction = std::function<Filling(const Vector& position, double time)>;
+
+enum class EdgeKind {
+  wall,            // reflects; also a plane of symmetry and the axis
+  inflow,          // the state beyond is given
+  pressure,        // the pressure beyond is given, the rest follows the gas inside
+  non_reflecting,  // waves leave into a given state at rest beyond
+  periodic         // the other side of the box
+};
+struct Edge {
+  std::string name;
+  EdgeKind kind = EdgeKind::wall;
+  FillingFunction beyond;  // inflow, non_reflecting; of pressure only the pressure
+};
+
+struct Fluid {
+  std::string name;
+  EquationOfState equation_of_state;
+  double usual_density = 1.0, usual_energy = 1.0;  // kg/m^3, J/kg; a state that it can have, for lanes without this fluid
+};
+
+/// Content of a cell, per whole cell, radian or steradian (see Metric). With one fluid its volume and energy are not kept.
+struct Content {
+  static constexpr int room = 0;      // m^3, volume of the cell; what it has become in the Lagrangian phase
+  static constexpr int energy = 1;    // J, total
+  static constexpr int momentum = 2;  // kg m/s, as many components as dimensions
+  static constexpr int fluids(int dimensions) { return momentum + dimensions; }
+  static constexpr int mass = 0;      // kg, of a fluid
+  static constexpr int volume = 1;    // m^3
+  static constexpr int internal = 2;  // J
+};
+/// State of a cell as the pressure equilibrium gives it.
+struct Primitive {
+  static constexpr int density = 0, pressure = 1, sound_speed = 2, gruneisen = 3, velocity = 4;
+  static constexpr int count(int dimensions) { return velocity + dimensions; }
+};
+/// What half a step changes in the Lagrangian frame.
+struct HalfStep {
+  static constexpr int pressure = 0, velocity = 1;
+  static constexpr int count(int dimensions) { return 1 + dimensions; }
+};
+
+/// What has passed the faces of one block on one side of the box, into it: mass of each fluid (kg), impulse of the pressure and
+/// momentum carried (N s), energy (J).
+struct Passage {
+  std::int32_t block = 0;
+  int side = 0;                         // as Gas::edges
+  int face = 0;                         // of the block's pencils
+  std::array<std::uint8_t, 8> lanes{};  // of each pencil, that lie within the box
+  std::vector<CompensatedSum> mass;
+  std::array<CompensatedSum, 3> momentum;
+  CompensatedSum energy;
+  struct {
+    std::vector<double> mass;
+    Vector momentum{};
+    double energy = 0.0;
+  } step;  // the same of the step that is under way
+};
+
+struct Gas {
+  Cells cells;
+  std::vector<Fluid> fluids;
+  std::vector<Edge> edges;  // low x, high x, low y, ...
+  Vector gravity{};
+  double least_mach = 1e-2;  // below, the dissipation of the faces falls no further with the Mach number
+
+  CellSet content;                                      // at the start of the step
+  CellSet moved, next;                                  // after the Lagrangian phase and each sweep of the remap
+  CellSet primitive, half_step;                         // scratch
+  std::vector<Lanes> swept;                             // m^3 that pass the faces in a step: [block][axis][pencil][face]
+  std::vector<Passage> passages;                        // in Morton order of the blocks
+  std::vector<std::array<std::int32_t, 6>> passage_of;  // of each block and side; -1: none
+
+  double time = 0.0;  // s
+  std::int64_t step = 0;
+  double wave_rate = 0.0;      // 1/s, largest sum over the axes of (|u| + c)/h
+  double motion_rate = 0.0;    // 1/s, largest |u|/h of one axis
+  std::int64_t flattened = 0;  // slopes that were taken back so that no cell loses more energy than it has
+
+  bool empty() const { return fluids.empty(); }
+  int dimensions() const { return cells.dimensions; }
+  Lanes* swept_faces(std::size_t block, int axis, int pencil) {
+    const std::size_t pencils = dimensions() == 3 ? 8 : 1;
+    return swept.data() + ((block * static_cast<std::size_t>(dimensions()) + static_cast<std::size_t>(axis)) * pencils +
+                           static_cast<std::size_t>(pencil)) *
+                              line_faces;
+  }
+  /// Quantities of a fluid's content.
+  int fluid_quantities() const { return fluids.size() == 1 ? 1 : 3; }
+  int contents() const { return Content::fluids(dimensions()) + static_cast<int>(fluids.size()) * fluid_quantities(); }
+};
+
+/// Mass of each fluid, momentum and energy of all cells, summed in Morton order. Per metre, radian or steradian as Metric says.
+struct Totals {
+  std::vector<double> mass;  // kg
+  Vector momentum{};         // kg m/s
+  double energy = 0.0;       // J
+  double kinetic = 0.0;      // J
+};
+
+/// Allocates the cells and fills them; makes the gas ready for its first step.
+void fill(Gas& gas, const FillingFunction& filling, Domain& domain);
+/// Pressures and rates from the contents: after filling, and after a restart.
+void begin(Gas& gas, Domain& domain);
+/// The largest step (s) for a Courant number.
+double largest_step(const Gas& gas, double courant);
+enum class Outcome { done, rejected };
+/// Advances by dt (s). A step that is rejected changes nothing.
+Outcome advance(Gas& gas, double dt, Domain& domain);
+Totals totals(const Gas& gas, Domain& domain);
+
+}  // namespace brisance::simulator::gas

@@ -1,0 +1,221 @@
+#include "simulator/gas/lagrangian.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "simulator/gas/limiter.hpp"
+#include "simulator/gas/passages.hpp"
+#include "simulator/parallel.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+/// Slope of the pressure less its hydrostatic part.
+Lanes pressure_slope(const Pencil& p, const Pencil& density, std::size_t c, double half_head) {
+  if (half_head == 0.0) return slope(p, c);
+  const Lanes below = p[c - 1] + half_head * (density[c - 1] + density[c]);
+  const Lanes above = p[c + 1] - half_head * (density[c] + density[c + 1]);
+  return monotonised_central(below, p[c], above);
+}
+
+/// The state that a cell sends to one of its faces.
+struct FaceSide {
+  Lanes velocity, pressure, density;
+};
+FaceSide face_side(const Pencil& density, const Pencil& pressure, const Pencil& velocity, const Pencil& half_pressure,
+                   const Pencil& half_velocity, std::size_t c, double towards, double half_head) {
+  const Lanes head = Lanes(2.0 * half_head) * density[c];
+  FaceSide s;
+  s.density = density[c] + towards * slope(density, c);
+  s.pressure = pressure[c] + towards * (pressure_slope(pressure, density, c, half_head) + head) + half_pressure[c];
+  s.velocity = velocity[c] + towards * slope(velocity, c) + half_velocity[c];
+  // Where the extrapolation nearly empties the cell it is not to be trusted.
+  constexpr double least = 1e-3;
+  const LanesMask bad = (s.density < least * density[c]) | ((s.pressure < least * pressure[c]) & (pressure[c] > 0.0));
+  s.density = select(bad, density[c], s.density);
+  s.pressure = select(bad, pressure[c], s.pressure);
+  s.velocity = select(bad, velocity[c], s.velocity);
+  return s;
+}
+
+struct Star {
+  Lanes velocity, pressure;
+};
+/// Acoustic solution between two states, with the impedance of a shock where they approach. At low Mach numbers the velocity
+/// jump adds no more pressure than the motion itself would: otherwise slow flow is damped (Dellacherie, J. Comput. Phys. 229
+/// (2010) 978).
+Star star(const FaceSide& L, const FaceSide& R, const Lanes& sound_L, const Lanes& sound_R, const Lanes& shock,
+          const Lanes& speed, double least_mach) {
+  const Lanes closing = max(Lanes(L.velocity - R.velocity), Lanes(0.0));
+  const Lanes stiffening = shock * closing;
+  const Lanes Z_L = L.density * (sound_L + stiffening), Z_R = R.density * (sound_R + stiffening);
+  const Lanes sum = 1.0 / (Z_L + Z_R);
+  const Lanes slower = min(sound_L, sound_R);
+  const LanesMask shocked =
+      (abs(R.pressure - L.pressure) > 0.1 * min(abs(L.pressure), abs(R.pressure))) | (closing > 0.1 * slower);
+  const Lanes mach = min(max(Lanes(speed / slower), Lanes(least_mach)), Lanes(1.0));
+  const Lanes damping = select(shocked, Lanes(1.0), mach);
+  return {(Z_L * L.velocity + Z_R * R.velocity + L.pressure - R.pressure) * sum,
+          (Z_R * L.pressure + Z_L * R.pressure - damping * Z_L * Z_R * (R.velocity - L.velocity)) * sum};
+}
+
+template <int D>
+void half_step_of(Gas& gas, std::size_t block, double dt) {
+  using Shape = BlockShape<D>;
+  const Cells& cells = gas.cells;
+  const double h = cells.cell_size;
+  Lanes divergence[Shape::packs];
+  const bool curved = cells.geometry != Geometry::plane && cells.geometry != Geometry::three_dimensional &&
+                      cells.geometry != Geometry::planar_1d;
+  for (int axis = 0; axis < D; ++axis) {
+    const double half_head = 0.5 * gas.gravity[static_cast<std::size_t>(axis)] * h;
+    for (int n = 0; n < Shape::pencils; ++n) {
+      Pencil density, pressure, velocity, change;
+      load<D>(cells, gas.primitive, block, Primitive::density, axis, n, density);
+      load<D>(cells, gas.primitive, block, Primitive::pressure, axis, n, pressure);
+      load<D>(cells, gas.primitive, block, Primitive::velocity + axis, axis, n, velocity);
+      for (std::size_t c = ring; c < ring + line; ++c)
+        change[c] = (-0.5 * dt / h) * pressure_slope(pressure, density, c, half_head) / density[c];
+      store<D>(gas.half_step, block, HalfStep::velocity + axis, axis, n, change);
+      for (std::size_t c = ring; c < ring + line; ++c) change[c] = slope(velocity, c);
+      // The sum over the axes, in the order of the axes; through the pressure's place.
+      if (axis == 0) {
+        store<D>(gas.half_step, block, HalfStep::pressure, axis, n, change);
+      } else {
+        Pencil before;
+        load_own<D>(gas.half_step, block, HalfStep::pressure, axis, n, before);
+        for (std::size_t c = ring; c < ring + line; ++c) change[c] += before[c];
+        store<D>(gas.half_step, block, HalfStep::pressure, axis, n, change);
+      }
+    }
+  }
+  for (int k = 0; k < Shape::packs; ++k) {
+    const Lanes rho = gas.primitive.at(block, Primitive::density)[k], c = gas.primitive.at(block, Primitive::sound_speed)[k];
+    divergence[k] = gas.half_step.at(block, HalfStep::pressure)[k] * (1.0 / h);
+    if (curved) {
+      const int first = cells.corner(block)[0] - cells.metric.first + (D == 1 ? 8 * k : 0);
+      divergence[k] += Lanes::load(cells.metric.widening.data() + first) * gas.primitive.at(block, Primitive::velocity)[k];
+    }
+    gas.half_step.at(block, HalfStep::pressure)[k] = -0.5 * dt * rho * c * c * divergence[k];
+  }
+}
+
+template <int D>
+bool move(Gas& gas, std::size_t block, double dt) {
+  using Shape = BlockShape<D>;
+  const Cells& cells = gas.cells;
+  constexpr std::size_t faces = line_faces;
+  for (int axis = 0; axis < D; ++axis) {
+    const double half_head = 0.5 * gas.gravity[static_cast<std::size_t>(axis)] * cells.cell_size;
+    for (int n = 0; n < Shape::pencils; ++n) {
+      Pencil density, pressure, sound, gruneisen, velocity, half_pressure, half_velocity, speed;
+      load<D>(cells, gas.primitive, block, Primitive::density, axis, n, density);
+      load<D>(cells, gas.primitive, block, Primitive::pressure, axis, n, pressure);
+      load<D>(cells, gas.primitive, block, Primitive::sound_speed, axis, n, sound);
+      load<D>(cells, gas.primitive, block, Primitive::gruneisen, axis, n, gruneisen);
+      load<D>(cells, gas.primitive, block, Primitive::velocity + axis, axis, n, velocity);
+      load<D>(cells, gas.half_step, block, HalfStep::pressure, axis, n, half_pressure);
+      load<D>(cells, gas.half_step, block, HalfStep::velocity + axis, axis, n, half_velocity);
+      for (std::size_t c = 0; c < reach; ++c) speed[c] = velocity[c] * velocity[c];
+      for (int a = 0; a < D; ++a) {
+        if (a == axis) continue;
+        Pencil across;
+        load<D>(cells, gas.primitive, block, Primitive::velocity + a, axis, n, across);
+        for (std::size_t c = 0; c < reach; ++c) speed[c] += across[c] * across[c];
+      }
+      PencilMetric metric;
+      load_metric<D>(cells, block, axis, n, metric);
+      std::array<Lanes, faces> face_pressure, flow;  // flow: volume per time
+      Lanes* swept = gas.swept_faces(block, axis, n);
+      for (std::size_t f = 0; f < faces; ++f) {
+        const std::size_t l = ring + f - 1, r = ring + f;
+        const FaceSide L = face_side(density, pressure, velocity, half_pressure, half_velocity, l, 0.5, half_head);
+        const FaceSide R = face_side(density, pressure, velocity, half_pressure, half_velocity, r, -0.5, half_head);
+        const Lanes shock = 1.0 + 0.5 * max(gruneisen[l], gruneisen[r]);
+        const Star s = star(L, R, sound[l], sound[r], shock, sqrt(max(speed[l], speed[r])), gas.least_mach);
+        face_pressure[f] = s.pressure, flow[f] = metric.area[f] * s.velocity;
+        swept[f] = dt * flow[f];
+      }
+      // The impulse of the pressure on the sides of a widening cell is that of the mean of its two faces.
+      Pencil room, momentum, energy;
+      const CellSet& before = axis == 0 ? gas.content : gas.moved;
+      load_own<D>(before, block, Content::room, axis, n, room);
+      load_own<D>(axis == 0 ? gas.content : gas.moved, block, Content::energy, axis, n, energy);
+      load_own<D>(gas.content, block, Content::momentum + axis, axis, n, momentum);
+      for (std::size_t f = 0; f < line; ++f) {
+        const std::size_t c = ring + f;
+        room[c] += dt * (flow[f + 1] - flow[f]);
+        momentum[c] -= dt * (0.5 * (metric.area[f] + metric.area[f + 1])) * (face_pressure[f + 1] - face_pressure[f]);
+        energy[c] -= dt * (face_pressure[f + 1] * flow[f + 1] - face_pressure[f] * flow[f]);
+      }
+      store<D>(gas.moved, block, Content::room, axis, n, room);
+      store<D>(gas.moved, block, Content::momentum + axis, axis, n, momentum);
+      store<D>(gas.moved, block, Content::energy, axis, n, energy);
+      book_pressure(gas, block, axis, n, dt, face_pressure, flow, metric);
+    }
+  }
+
+  LanesMask good(true);
+  const int fluids = static_cast<int>(gas.fluids.size());
+  for (int k = 0; k < Shape::packs; ++k) {
+    const std::uint8_t inside = cells_inside(cells, block, k);
+    const LanesMask active = lanes_of(inside);
+    const auto at = [&](CellSet& set, int quantity) -> Lanes& { return set.at(block, quantity)[k]; };
+    Lanes mass(0.0);
+    for (int r = 0; r < fluids; ++r) {
+      const int first = Content::fluids(D) + r * gas.fluid_quantities();
+      mass += at(gas.content, first + Content::mass);
+      for (int q = 0; q < gas.fluid_quantities(); ++q) at(gas.moved, first + q) = at(gas.content, first + q);
+    }
+    Lanes kinetic_before(0.0), kinetic(0.0), weight(0.0);
+    for (int a = 0; a < D; ++a) {
+      const double g = gas.gravity[static_cast<std::size_t>(a)];
+      Lanes& momentum = at(gas.moved, Content::momentum + a);
+      const Lanes before = at(gas.content, Content::momentum + a);
+      if (g != 0.0) {
+        momentum += (dt * g) * mass;
+        weight += (0.5 * dt * g) * (before + momentum);
+      }
+      kinetic_before += before * before, kinetic += momentum * momentum;
+    }
+    at(gas.moved, Content::energy) += weight;
+    const Lanes room = at(gas.content, Content::room), moved = at(gas.moved, Content::room);
+    const Lanes internal_before = at(gas.content, Content::energy) - 0.5 * kinetic_before / mass;
+    const Lanes internal = at(gas.moved, Content::energy) - 0.5 * kinetic / mass;
+    if (fluids > 1) {
+      for (int r = 0; r < fluids; ++r) {
+        const int first = Content::fluids(D) + 3 * r;
+        const Lanes share = gas.primitive.at(block, Primitive::count(D) + r)[k];
+        at(gas.moved, first + Content::volume) += share * (moved - room);
+        at(gas.moved, first + Content::internal) += share * (internal - internal_before);
+      }
+    }
+    constexpr double least_room = 0.2;
+    good &= ((moved > least_room * room) & (internal > 0.0)) | !active;
+  }
+  return all(good);
+}
+
+}  // namespace
+
+void advance_half_step(Gas& gas, double dt) {
+  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
+    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
+    gas.dimensions() == 1   ? half_step_of<1>(gas, block, dt)
+    : gas.dimensions() == 2 ? half_step_of<2>(gas, block, dt)
+                            : half_step_of<3>(gas, block, dt);
+  });
+}
+
+bool lagrangian_phase(Gas& gas, double dt) {
+  std::vector<char> good(gas.cells.mine.size());
+  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
+    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
+    good[i] = gas.dimensions() == 1   ? move<1>(gas, block, dt)
+              : gas.dimensions() == 2 ? move<2>(gas, block, dt)
+                                      : move<3>(gas, block, dt);
+  });
+  return std::all_of(good.begin(), good.end(), [](char g) { return g != 0; });
+}
+
+}  // namespace brisance::simulator::gas

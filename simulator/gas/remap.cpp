@@ -1,0 +1,270 @@
+#include "simulator/gas/remap.hpp"
+
+#include <vector>
+
+#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/limiter.hpp"
+#include "simulator/gas/passages.hpp"
+#include "simulator/parallel.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+/// What leaves a cell through a face depends on its own slopes alone, so both neighbours of the face compute the same.
+template <int D>
+struct Donor {
+  Lanes room, mass;
+  Lanes density, energy;  // kg/m^3; J/m^3, internal
+  Lanes velocity[D], velocity_slope[D];
+};
+
+/// Takes slopes of the velocity back where parting the cell would take more kinetic energy than there is heat: the parts of a
+/// cell move with different velocities, and their kinetic energies together exceed that of the whole by up to 1/32 of the mass
+/// times the square of the slope.
+template <int D>
+LanesMask flatten(Donor<D>& d) {
+  Lanes jump(0.0);
+  for (int a = 0; a < D; ++a) jump += d.velocity_slope[a] * d.velocity_slope[a];
+  constexpr double most = 4.0;  // of the slope's square over the specific energy
+  const LanesMask too_steep = jump * d.density > most * d.energy;
+  for (int a = 0; a < D; ++a) d.velocity_slope[a] = select(too_steep, Lanes(0.0), d.velocity_slope[a]);
+  return too_steep & (jump > 0.0);
+}
+
+/// The flow through one face: which of its two cells gives, and what part of it.
+struct Giving {
+  std::size_t low, high;  // cells of the pencil
+  LanesMask up;           // along the axis: the low cell gives
+  Lanes part;
+
+  Lanes of(const Pencil& field) const { return select(up, field[low], field[high]); }
+  /// Mean of a field over what leaves.
+  Lanes leaving(const Pencil& field) const { return of(field) + 0.5 * (1.0 - part) * difference(field, part); }
+  /// The same of a fluid's field: only some cells have it, and what leaves is a part of its own.
+  Lanes leaving(const Pencil& field, const std::array<LanesMask, reach>& present, const Lanes& own_part) const {
+    const LanesMask low_side = present[low - 1] & present[low] & present[high];
+    const LanesMask high_side = present[low] & present[high] & present[high + 1];
+    const LanesMask smooth = (up & low_side) | ((!up) & high_side);
+    return of(field) + select(smooth, 0.5 * (1.0 - own_part) * difference(field, own_part), Lanes(0.0));
+  }
+  Lanes difference(const Pencil& field, const Lanes& what_leaves) const {
+    const Lanes ahead = select(up, field[high] - field[low], field[low] - field[high]);
+    const Lanes behind = select(up, field[low] - field[low - 1], field[high] - field[high + 1]);
+    return upwind_difference(of(field), behind, ahead, what_leaves);
+  }
+};
+
+Giving giving_at(const Lanes& swept, const Pencil& room, std::size_t face) {
+  Giving g{ring + face - 1, ring + face, swept > 0.0, Lanes(0.0)};
+  g.part = abs(swept) / g.of(room);
+  return g;
+}
+
+/// Momentum that goes with a mass (positive along the axis) into dp; returns its kinetic energy.
+template <int D>
+Lanes carry_momentum(const Giving& giving, const std::array<Donor<D>, reach>& donors, const Lanes& mass, std::size_t face,
+                     std::array<Lanes, line_faces> (&dp)[D]) {
+  const Donor<D>&low = donors[giving.low], &high = donors[giving.high];
+  const Lanes part = abs(mass) / select(giving.up, low.mass, high.mass);
+  const Lanes offset = select(giving.up, Lanes(0.5 * (1.0 - part)), Lanes(-0.5 * (1.0 - part)));
+  Lanes square(0.0);
+  for (int a = 0; a < D; ++a) {
+    const Lanes u = select(giving.up, low.velocity[a], high.velocity[a]) +
+                    offset * select(giving.up, low.velocity_slope[a], high.velocity_slope[a]);
+    dp[a][face] = mass * u, square += u * u;
+  }
+  return 0.5 * mass * square;
+}
+
+struct SweepResult {
+  std::int64_t flattened = 0;  // cells
+  bool good = true;            // no fluid is left with less than nothing
+};
+
+template <int D>
+SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
+  constexpr int mass_at = Content::fluids(D) + Content::mass;
+  SweepResult result;
+  for (int n = 0; n < BlockShape<D>::pencils; ++n) {
+    Pencil room, total, mass, momentum[D], density, energy, velocity[D];
+    load<D>(gas.cells, gas.moved, block, Content::room, axis, n, room);
+    load<D>(gas.cells, gas.moved, block, Content::energy, axis, n, total);
+    load<D>(gas.cells, gas.moved, block, mass_at, axis, n, mass);
+    for (int a = 0; a < D; ++a) load<D>(gas.cells, gas.moved, block, Content::momentum + a, axis, n, momentum[a]);
+    for (std::size_t c = 0; c < reach; ++c) {
+      density[c] = mass[c] / room[c];
+      Lanes kinetic(0.0);
+      const Lanes inverse_mass = 1.0 / mass[c];
+      for (int a = 0; a < D; ++a) velocity[a][c] = momentum[a][c] * inverse_mass, kinetic += momentum[a][c] * velocity[a][c];
+      energy[c] = (total[c] - 0.5 * kinetic) / room[c];
+    }
+    std::array<Donor<D>, reach> donors;
+    for (std::size_t c = ring - 1; c <= ring + line; ++c) {
+      Donor<D>& d = donors[c];
+      d.room = room[c], d.mass = mass[c];
+      d.density = density[c], d.energy = energy[c];
+      for (int a = 0; a < D; ++a) d.velocity[a] = velocity[a][c], d.velocity_slope[a] = slope(velocity[a], c);
+      const LanesMask taken = flatten<D>(d);
+      if (c >= ring && c < ring + line && any(taken))
+        for (int l = 0; l < 8; ++l) result.flattened += taken[l] ? 1 : 0;
+    }
+    const Lanes* swept = gas.swept_faces(block, axis, n);
+    std::array<Lanes, line_faces> dm, dE, dp[D] = {};
+    for (std::size_t f = 0; f < line_faces; ++f) {
+      const Giving giving = giving_at(swept[f], room, f);
+      const Lanes leaving = swept[f] * giving.leaving(density);
+      dm[f] = leaving;
+      dE[f] = swept[f] * giving.leaving(energy) + carry_momentum<D>(giving, donors, leaving, f, dp);
+    }
+    for (std::size_t f = 0; f < line; ++f) {
+      const std::size_t c = ring + f;
+      room[c] -= swept[f + 1] - swept[f];
+      mass[c] -= dm[f + 1] - dm[f];
+      total[c] -= dE[f + 1] - dE[f];
+      for (int a = 0; a < D; ++a) momentum[a][c] -= dp[a][f + 1] - dp[a][f];
+    }
+    store<D>(gas.next, block, Content::room, axis, n, room);
+    store<D>(gas.next, block, Content::energy, axis, n, total);
+    store<D>(gas.next, block, mass_at, axis, n, mass);
+    for (int a = 0; a < D; ++a) store<D>(gas.next, block, Content::momentum + a, axis, n, momentum[a]);
+    for_each_passage(gas, block, axis, n, [&](Passage& passage, double sign, std::uint8_t lanes) {
+      const auto f = static_cast<std::size_t>(passage.face);
+      for (int l = 0; l < 8; ++l) {
+        if (!(lanes >> l & 1)) continue;
+        passage.step.mass[0] += sign * dm[f][l], passage.step.energy += sign * dE[f][l];
+        for (std::size_t a = 0; a < D; ++a) passage.step.momentum[a] += sign * dp[a][f][l];
+      }
+    });
+  }
+  return result;
+}
+
+template <int D>
+SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
+  const std::size_t fluids = gas.fluids.size();
+  SweepResult result;
+  struct FluidPencils {
+    Pencil mass, volume, internal, part, density, energy;
+    std::array<LanesMask, reach> present;
+    std::array<Lanes, line_faces> dm, dV, dI;
+  };
+  std::vector<FluidPencils> fluid(fluids);
+  for (int n = 0; n < BlockShape<D>::pencils; ++n) {
+    Pencil room, total, momentum[D], mass, energy, velocity[D];
+    load<D>(gas.cells, gas.moved, block, Content::room, axis, n, room);
+    load<D>(gas.cells, gas.moved, block, Content::energy, axis, n, total);
+    for (int a = 0; a < D; ++a) load<D>(gas.cells, gas.moved, block, Content::momentum + a, axis, n, momentum[a]);
+    mass.fill(Lanes(0.0)), energy.fill(Lanes(0.0));
+    for (std::size_t r = 0; r < fluids; ++r) {
+      FluidPencils& at = fluid[r];
+      const int first = Content::fluids(D) + 3 * static_cast<int>(r);
+      load<D>(gas.cells, gas.moved, block, first + Content::mass, axis, n, at.mass);
+      load<D>(gas.cells, gas.moved, block, first + Content::volume, axis, n, at.volume);
+      load<D>(gas.cells, gas.moved, block, first + Content::internal, axis, n, at.internal);
+      for (std::size_t c = 0; c < reach; ++c) {
+        at.present[c] = (at.volume[c] > least_fraction * room[c]) & (at.mass[c] > 0.0);
+        at.part[c] = at.volume[c] / room[c];
+        const Lanes volume = select(at.present[c], at.volume[c], Lanes(1.0));
+        at.density[c] = at.mass[c] / volume, at.energy[c] = at.internal[c] / volume;
+        mass[c] += at.mass[c], energy[c] += at.internal[c];
+      }
+    }
+    for (std::size_t c = 0; c < reach; ++c) {
+      energy[c] /= room[c];
+      for (int a = 0; a < D; ++a) velocity[a][c] = momentum[a][c] / mass[c];
+    }
+    std::array<Donor<D>, reach> donors;
+    for (std::size_t c = ring - 1; c <= ring + line; ++c) {
+      Donor<D>& d = donors[c];
+      d.room = room[c], d.mass = mass[c], d.density = mass[c] / room[c], d.energy = energy[c];
+      for (int a = 0; a < D; ++a) d.velocity[a] = velocity[a][c], d.velocity_slope[a] = slope(velocity[a], c);
+      const LanesMask taken = flatten<D>(d);
+      if (c >= ring && c < ring + line && any(taken))
+        for (int l = 0; l < 8; ++l) result.flattened += taken[l] ? 1 : 0;
+    }
+    const Lanes* swept = gas.swept_faces(block, axis, n);
+    std::array<Lanes, line_faces> dE, dp[D] = {};
+    for (std::size_t f = 0; f < line_faces; ++f) {
+      const Giving giving = giving_at(swept[f], room, f);
+      const Lanes q = abs(swept[f]);
+      // Volumes first: together they are what the face has swept. What the limits leave over goes to the largest.
+      constexpr double most = 0.999;  // of what the donor has
+      Lanes left = q, largest(0.0);
+      for (FluidPencils& at : fluid) {
+        const LanesMask whole = giving.of(at.part) > 1.0 - least_fraction;
+        const Lanes wanted = max(Lanes(q * giving.leaving(at.part)), Lanes(0.0));
+        at.dV[f] = select(whole, q, min(wanted, Lanes(most * giving.of(at.volume))));
+        left -= at.dV[f], largest = max(largest, giving.of(at.volume));
+      }
+      LanesMask given(false);
+      Lanes dm_all(0.0), dI_all(0.0);
+      const Lanes sign = select(giving.up, Lanes(1.0), Lanes(-1.0));
+      for (FluidPencils& at : fluid) {
+        const LanesMask most_of_it = (giving.of(at.volume) == largest) & !given;
+        given |= most_of_it;
+        const Lanes volume =
+            select(most_of_it, at.dV[f] + left, select(giving.of(at.part) > least_fraction, at.dV[f], Lanes(0.0)));
+        at.dV[f] = sign * volume;
+        const Lanes own_part = min(Lanes(volume / max(giving.of(at.volume), Lanes(1e-300))), Lanes(0.9999));
+        at.dm[f] = at.dV[f] * giving.leaving(at.density, at.present, own_part);
+        at.dI[f] = at.dV[f] * giving.leaving(at.energy, at.present, own_part);
+        dm_all += at.dm[f], dI_all += at.dI[f];
+      }
+      dE[f] = dI_all + carry_momentum<D>(giving, donors, dm_all, f, dp);
+    }
+    for (std::size_t f = 0; f < line; ++f) {
+      const std::size_t c = ring + f;
+      room[c] -= swept[f + 1] - swept[f];
+      total[c] -= dE[f + 1] - dE[f];
+      for (int a = 0; a < D; ++a) momentum[a][c] -= dp[a][f + 1] - dp[a][f];
+      for (FluidPencils& at : fluid) {
+        at.mass[c] -= at.dm[f + 1] - at.dm[f];
+        at.volume[c] -= at.dV[f + 1] - at.dV[f];
+        at.internal[c] -= at.dI[f + 1] - at.dI[f];
+        const LanesMask overdrawn = (at.mass[c] < 0.0) | (at.volume[c] < -1e-14 * room[c]);
+        result.good = result.good && none(overdrawn & lanes_inside<D>(gas.cells, block, axis, n, static_cast<int>(f)));
+      }
+    }
+    store<D>(gas.next, block, Content::room, axis, n, room);
+    store<D>(gas.next, block, Content::energy, axis, n, total);
+    for (int a = 0; a < D; ++a) store<D>(gas.next, block, Content::momentum + a, axis, n, momentum[a]);
+    for (std::size_t r = 0; r < fluids; ++r) {
+      const int first = Content::fluids(D) + 3 * static_cast<int>(r);
+      store<D>(gas.next, block, first + Content::mass, axis, n, fluid[r].mass);
+      store<D>(gas.next, block, first + Content::volume, axis, n, fluid[r].volume);
+      store<D>(gas.next, block, first + Content::internal, axis, n, fluid[r].internal);
+    }
+    for_each_passage(gas, block, axis, n, [&](Passage& passage, double sign, std::uint8_t lanes) {
+      const auto f = static_cast<std::size_t>(passage.face);
+      for (int l = 0; l < 8; ++l) {
+        if (!(lanes >> l & 1)) continue;
+        for (std::size_t r = 0; r < fluids; ++r) passage.step.mass[r] += sign * fluid[r].dm[f][l];
+        passage.step.energy += sign * dE[f][l];
+        for (std::size_t a = 0; a < D; ++a) passage.step.momentum[a] += sign * dp[a][f][l];
+      }
+    });
+  }
+  return result;
+}
+
+template <int D>
+SweepResult sweep_block(Gas& gas, std::size_t block, int axis) {
+  return gas.fluids.size() == 1 ? sweep_single<D>(gas, block, axis) : sweep_mixture<D>(gas, block, axis);
+}
+
+}  // namespace
+
+bool sweep(Gas& gas, int axis) {
+  std::vector<SweepResult> results(gas.cells.mine.size());
+  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
+    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
+    results[i] = gas.dimensions() == 1   ? sweep_block<1>(gas, block, axis)
+                 : gas.dimensions() == 2 ? sweep_block<2>(gas, block, axis)
+                                         : sweep_block<3>(gas, block, axis);
+  });
+  bool good = true;
+  for (const SweepResult& r : results) gas.flattened += r.flattened, good = good && r.good;
+  return good;
+}
+
+}  // namespace brisance::simulator::gas
