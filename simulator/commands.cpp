@@ -97,8 +97,12 @@ int resume_run(const Options& o) {
 int report_run(const Options& o) {
   const Case c = case_of_run(o.directory);
   Simulation s = set_up_or_refuse(c);
-  fmt::print("{}", in_words(report(c, s, o.directory)));
-  return done;
+  const Summary summary = report(c, s, o.directory);
+  fmt::print("{}", in_words(summary));
+  if (summary.message.empty()) return done;
+  std::fflush(stdout);
+  fmt::print(stderr, "{}\n", summary.message);
+  return failed_while_running;
 }
 
 int check_case(const Options& o) {

@@ -1,6 +1,7 @@
 #include "simulator/run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <omp.h>
 #include <sys/resource.h>
 
@@ -258,7 +259,8 @@ RunResult resume(const Case& c, Simulation& s, const RunOptions& options) {
 
 Summary report(const Case& c, Simulation& s, const Path& directory) {
   const Measures measures(c, s);
-  const Restored restored = restore_newest(directory, s);
+  std::vector<std::string> troubles;
+  const Restored restored = restore_newest(directory, s, [&](const std::string& trouble) { troubles.push_back(trouble); });
   Summary summary{c.title,
                   "as of " + restored.file.filename().string(),
                   "",
@@ -270,8 +272,9 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   omp_get_max_threads(),
                   books_of(s),
                   measures.read(s)};
-  for (const std::string& trouble : draw_figures(c, s, directory))
-    summary.message += (summary.message.empty() ? "" : "\n") + trouble;
+  for (auto& found : {damaged_snapshots(directory, s, restored.progress.snapshot_times.size()), draw_figures(c, s, directory)})
+    troubles.insert(troubles.end(), found.begin(), found.end());
+  summary.message = fmt::format("{}", fmt::join(troubles, "\n"));
   return summary;
 }
 

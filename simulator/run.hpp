@@ -31,7 +31,8 @@ struct RunResult {
 RunResult run(const Case& c, Simulation& s, const RunOptions& options);
 /// Goes on from the newest checkpoint in the directory; `s` has been set up from the case and gets its state.
 RunResult resume(const Case& c, Simulation& s, const RunOptions& options);
-/// What the newest checkpoint in a directory says, with figures drawn again; `s` has been set up from the case.
+/// What the newest checkpoint in a directory says, with figures drawn again; `s` has been set up from the case. The message is
+/// empty if every figure, snapshot and checkpoint is as it should be.
 Summary report(const Case& c, Simulation& s, const std::filesystem::path& directory);
 
 }  // namespace brisance::simulator

@@ -17,4 +17,10 @@ void replace_file_durably(const std::filesystem::path& path, const std::function
 /// A text as a whole file, complete or not at all.
 void replace_file_by_text(const std::filesystem::path& path, std::string_view text);
 
+/// Appends a checksum of all that a file holds, as an XML comment: XML allows it there, and HDF5 does not look beyond its own
+/// end. Throws std::runtime_error.
+void seal_file(const std::filesystem::path& path);
+/// Throws std::runtime_error if the file is not as it was sealed: it was cut off, changed, or never finished.
+void require_seal(const std::filesystem::path& path);
+
 }  // namespace brisance

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -17,29 +17,6 @@ namespace {
 
 using Path = std::filesystem::path;
 constexpr std::string_view format = "brisance checkpoint 2";
-
-/// A number that almost surely changes when any bit of the data does.
-class Checksum {
- public:
-  template <class T>
-  void add(const std::vector<T>& values) {
-    mix(values.size());
-    for (const T& value : values) {
-      if constexpr (std::is_same_v<T, double>)
-        mix(std::bit_cast<std::uint64_t>(value));
-      else
-        mix(static_cast<std::uint64_t>(value));
-    }
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  void mix(std::uint64_t word) {
-    value_ = (std::rotl(value_, 29) ^ word) * 0x9e3779b97f4a7c15;
-    value_ ^= value_ >> 32;
-  }
-  std::uint64_t value_ = 0x243f6a8885a308d3;
-};
 
 std::vector<double> numbers_of(const Extremes& e) {
   return {e.wave_speed, e.wave_and_motion, e.speed, e.volume_rate, e.filling};
@@ -93,10 +70,8 @@ std::vector<T> in_order(const Body& body, F&& of_particle) {
 
 void write(const Path& path, const Simulation& s, const RunProgress& progress) {
   Hdf5Writer file(path);
-  Checksum checksum;
   const auto keep = [&]<class T>(const std::string& name, const std::vector<T>& values) {
     file.array(name, std::span<const T>(values));
-    checksum.add(values);
   };
   keep("step", std::vector<std::int64_t>{s.step});
   keep("time", std::vector<double>{s.time, s.last_time_step});
@@ -119,7 +94,6 @@ void write(const Path& path, const Simulation& s, const RunProgress& progress) {
       keep(group + "/" + c.name,
            in_order<double>(body, [&](std::uint32_t p) { return ps.set(c.set).at(c.index, static_cast<int>(p)); }));
   }
-  file.attribute("/", "checksum", checksum.value());
   file.attribute("/", "format", format);
   file.finish();
 }
@@ -139,44 +113,27 @@ struct Content {
 Content read(const Path& path, const Simulation& s) {
   const Hdf5Reader file(path);
   if (file.text_attribute("/", "format") != format) throw std::runtime_error("it is of another version of this program");
-  Checksum checksum;
   Content content;
-  const auto doubles = [&](const std::string& name) {
-    std::vector<double> values = file.doubles(name);
-    checksum.add(values);
-    return values;
-  };
-  const auto integer = [&](const std::string& name) {
-    const std::vector<std::int64_t> values = file.integers(name);
-    checksum.add(values);
-    return values.at(0);
-  };
-  const auto unsigned_integers = [&](const std::string& name) {
-    std::vector<std::uint64_t> values = file.unsigned_integers(name);
-    checksum.add(values);
-    return values;
-  };
-  content.step = integer("step");
-  content.time = doubles("time"), content.extremes = doubles("extremes"), content.ledger = doubles("ledger");
-  const std::vector<double> progress = doubles("progress");
+  content.step = file.integers("step").at(0);
+  content.time = file.doubles("time"), content.extremes = file.doubles("extremes"), content.ledger = file.doubles("ledger");
+  const std::vector<double> progress = file.doubles("progress");
   content.progress.wall_time = progress.at(0), content.progress.row_time = progress.at(1);
-  content.progress.history_rows = integer("history_rows");
-  content.progress.snapshot_times = doubles("snapshot_times");
+  content.progress.history_rows = file.integers("history_rows").at(0);
+  content.progress.snapshot_times = file.doubles("snapshot_times");
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     const Particles& ps = s.bodies[b].particles;
     const std::string group = fmt::format("bodies/{}", b);
     if (!file.has(group) || file.text_attribute(group, "name") != s.bodies[b].name)
       throw std::runtime_error(fmt::format("it holds no body \"{}\"", s.bodies[b].name));
     Content::OfBody body;
-    body.id = unsigned_integers(group + "/id");
-    if (!ps.second_field.empty()) body.second_field = unsigned_integers(group + "/second_field");
+    body.id = file.unsigned_integers(group + "/id");
+    if (!ps.second_field.empty()) body.second_field = file.unsigned_integers(group + "/second_field");
     for (const Column& column : ps.columns()) {
-      body.columns.push_back(doubles(group + "/" + column.name));
+      body.columns.push_back(file.doubles(group + "/" + column.name));
       if (body.columns.back().size() != body.id.size()) throw std::runtime_error("its columns differ in length");
     }
     content.bodies.push_back(std::move(body));
   }
-  if (checksum.value() != file.number_attribute("/", "checksum")) throw std::runtime_error("its checksum does not match");
   return content;
 }
 
@@ -223,8 +180,9 @@ Path write_checkpoint(const Path& directory, const Simulation& s, const RunProgr
 
 Restored restore_newest(const Path& directory, Simulation& s, const std::function<void(const std::string&)>& report) {
   std::vector<Path> paths = checkpoint_paths(directory);
-  std::stable_sort(paths.begin(), paths.end(),
-                   [](const Path& a, const Path& b) { return step_of(a).value_or(-1) > step_of(b).value_or(-1); });
+  // One that cannot be read may have been the newest: it is tried first, so that what is wrong with it is told.
+  const auto rank = [](const Path& path) { return step_of(path).value_or(std::numeric_limits<std::int64_t>::max()); };
+  std::stable_sort(paths.begin(), paths.end(), [&](const Path& a, const Path& b) { return rank(a) > rank(b); });
   std::string reasons;
   for (const Path& path : paths) {
     if (!std::filesystem::exists(path)) continue;

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "models/programs/files.hpp"
+
 namespace brisance::simulator {
 namespace {
 
@@ -94,14 +96,15 @@ void write_attribute(hid_t file, const std::string& object, const std::string& n
 }  // namespace
 
 struct Hdf5Writer::File {
+  std::filesystem::path path;
   Handle id;
   Packing packing;
 };
 
 Hdf5Writer::Hdf5Writer(const std::filesystem::path& path, Packing packing) {
   silence();
-  file_.reset(new File{Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "creating the file"),
-                       packing});
+  file_.reset(new File{
+      path, Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "creating the file"), packing});
 }
 Hdf5Writer::~Hdf5Writer() = default;
 
@@ -136,13 +139,10 @@ void Hdf5Writer::attribute(const std::string& object, const std::string& name, s
   const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, "making a dataspace");
   write_attribute(file_->id, object, name, H5T_NATIVE_INT64, space, values.data());
 }
-void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::uint64_t value) {
-  const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "making a scalar space");
-  write_attribute(file_->id, object, name, H5T_NATIVE_UINT64, scalar, &value);
-}
 void Hdf5Writer::finish() {
   require(H5Fflush(file_->id, H5F_SCOPE_GLOBAL), "writing the file");
   file_->id.close("closing the file");
+  seal_file(file_->path);
 }
 
 struct Hdf5Reader::File {
@@ -150,6 +150,7 @@ struct Hdf5Reader::File {
 };
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) {
+  require_seal(path);
   silence();
   file_.reset(new File{Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening " + path.string())});
 }
@@ -183,13 +184,6 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
   std::string text(H5Tget_size(type), '\0');
   require(H5Aread(attribute, type, text.data()), "reading attribute " + name);
   return text.substr(0, text.find('\0'));
-}
-std::uint64_t Hdf5Reader::number_attribute(const std::string& object, const std::string& name) const {
-  const Handle attribute(H5Aopen_by_name(file_->id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                         "opening attribute " + name);
-  std::uint64_t value = 0;
-  require(H5Aread(attribute, H5T_NATIVE_UINT64, &value), "reading attribute " + name);
-  return value;
 }
 std::vector<std::int64_t> Hdf5Reader::integers_attribute(const std::string& object, const std::string& name) const {
   const Handle attribute(H5Aopen_by_name(file_->id, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,

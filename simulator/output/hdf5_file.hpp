@@ -31,8 +31,7 @@ class Hdf5Writer {
   /// A text of fixed length, without a terminating zero.
   void attribute(const std::string& object, const std::string& name, std::string_view text);
   void attribute(const std::string& object, const std::string& name, std::span<const std::int64_t> values);
-  void attribute(const std::string& object, const std::string& name, std::uint64_t value);
-  /// Writes what is left in memory. Without it nobody knows whether the file is whole.
+  /// Writes what is left in memory, and seals the file: without it no reader takes it for whole.
   void finish();
 
  private:
@@ -42,6 +41,8 @@ class Hdf5Writer {
 
 class Hdf5Reader {
  public:
+  /// Opens a file that an Hdf5Writer has finished. Throws std::runtime_error if it was cut off or changed since: the library
+  /// itself notices only some damage, and may crash on the rest.
   explicit Hdf5Reader(const std::filesystem::path& path);
   ~Hdf5Reader();
 
@@ -52,7 +53,6 @@ class Hdf5Reader {
   std::vector<std::int64_t> integers(const std::string& name) const;
   std::vector<std::uint64_t> unsigned_integers(const std::string& name) const;
   std::string text_attribute(const std::string& object, const std::string& name) const;
-  std::uint64_t number_attribute(const std::string& object, const std::string& name) const;
   std::vector<std::int64_t> integers_attribute(const std::string& object, const std::string& name) const;
 
  private:

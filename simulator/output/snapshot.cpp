@@ -82,4 +82,15 @@ void write_snapshot(const std::filesystem::path& directory, const Simulation& s,
   }
 }
 
+std::vector<std::string> damaged_snapshots(const std::filesystem::path& directory, const Simulation& s, std::size_t count) {
+  std::vector<std::string> troubles;
+  for (const Body& body : s.bodies)
+    for (std::size_t i = 0; i < count; ++i) try {
+        require_seal(directory / snapshot_name(body.name, i));
+      } catch (const std::exception& error) {
+        troubles.push_back(error.what());
+      }
+  return troubles;
+}
+
 }  // namespace brisance::simulator

@@ -76,6 +76,75 @@ TEST(Snapshot, TheSeriesListsEverySnapshotWithItsTime) {
   EXPECT_NE(text.find("\"name\": \"bar_particles_000001.hdf\",\n      \"time\": 2.5e-06"), std::string::npos) << text;
 }
 
+/// What a reader says about a file, or nothing.
+std::string complaint(const fs::path& path) {
+  try {
+    const Hdf5Reader reader(path);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Snapshot, OneThatWasCutOffAnywhereIsFoundOut) {
+  const fs::path directory = scratch();
+  write_snapshot(directory, set_up(small_case(directory)), {0.0});
+  const fs::path whole = directory / "bar_particles_000000.hdf", part = directory / "part.hdf";
+  EXPECT_EQ(complaint(whole), "");
+  const std::uintmax_t size = fs::file_size(whole);
+  for (const std::uintmax_t length : {std::uintmax_t{0}, std::uintmax_t{1}, std::uintmax_t{512}, size / 4, size / 2,
+                                      3 * size / 4, size - 100, size - 34, size - 33, size - 2, size - 1}) {
+    fs::copy_file(whole, part, fs::copy_options::overwrite_existing);
+    fs::resize_file(part, length);
+    EXPECT_NE(complaint(part).find("part.hdf: is damaged"), std::string::npos) << length << ": " << complaint(part);
+  }
+  EXPECT_NE(complaint(directory / "none.hdf").find("No such file"), std::string::npos) << complaint(directory / "none.hdf");
+}
+
+TEST(Snapshot, OneFlippedBitAnywhereIsFoundOut) {
+  const fs::path directory = scratch();
+  write_snapshot(directory, set_up(small_case(directory)), {0.0});
+  const std::string bytes = text_of(directory / "bar_particles_000000.hdf");
+  constexpr std::size_t places = 200;
+  for (std::size_t i = 0; i < places; ++i) {
+    std::string changed = bytes;
+    char& byte = changed[i * (bytes.size() - 1) / (places - 1)];
+    byte = static_cast<char>(byte ^ (1 << (i % 8)));
+    std::ofstream(directory / "changed.hdf", std::ios::binary) << changed;
+    ASSERT_NE(complaint(directory / "changed.hdf"), "") << i;
+  }
+}
+
+TEST(Snapshot, AFullDiskIsReportedAndLeavesTheEarlierOneGood) {
+  const fs::path directory = scratch();
+  Simulation s = set_up(small_case(directory));
+  write_snapshot(directory, s, {0.0});
+  const fs::path file = directory / "bar_particles_000000.hdf";
+  const std::string before = text_of(file);
+  s.time = 1e-6;
+  // The disk is full somewhere in the arrays, at the end of them, or only for the checksum.
+  for (const std::uintmax_t bytes : {std::uintmax_t{1000}, std::uintmax_t{20000}, before.size() - 100, before.size() - 10}) {
+    const std::string message = on_a_full_disk([&] { write_snapshot(directory, s, {1e-6}); }, bytes);
+    EXPECT_NE(message.find("bar_particles_000000.hdf: cannot be written"), std::string::npos) << bytes << ": " << message;
+    EXPECT_TRUE(text_of(file) == before) << bytes;
+  }
+}
+
+TEST(Report, TellsWhichSnapshotsAreDamagedOrMissing) {
+  const fs::path directory = scratch(), run_directory = directory / "run";
+  const Case c = small_case(directory, "[output]\nfigures = false\nsnapshot_interval = \"2 us\"\n");
+  Simulation s = set_up(c);
+  prepare_directory(run_directory, c, false);
+  ASSERT_EQ(run(c, s, {run_directory, {}}).ending, Ending::done);
+  EXPECT_EQ(report(c, s, run_directory).message, "");
+  fs::resize_file(run_directory / "bar_particles_000001.hdf", 5000);
+  fs::remove(run_directory / "bar_particles_000002.hdf");
+  const std::string message = report(c, s, run_directory).message;
+  EXPECT_NE(message.find("bar_particles_000001.hdf: is damaged"), std::string::npos) << message;
+  EXPECT_NE(message.find("bar_particles_000002.hdf: cannot be read"), std::string::npos) << message;
+  EXPECT_EQ(message.find("bar_particles_000003"), std::string::npos) << message;
+}
+
 TEST(History, TellsTheEnergiesOfTheWholeBarAndNotOfARadian) {
   const fs::path directory = scratch();
   const Case c = small_case(directory, "[output]\nfigures = false\n");

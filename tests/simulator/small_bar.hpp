@@ -1,8 +1,12 @@
 #pragma once
 // A small copper bar against a rigid wall, as a case file in a directory of the test's own.
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <bit>
+#include <csignal>
+#include <exception>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -11,6 +15,30 @@
 #include "tests/command_line.hpp"
 
 namespace brisance::simulator {
+
+/// Does something while no file may grow beyond `bytes`, which the system says as it says that a disk is full. Returns the
+/// error.
+template <class F>
+std::string on_a_full_disk(F&& write, rlim_t bytes = 20000) {
+  struct sigaction before {};
+  struct sigaction ignore {};
+  ignore.sa_handler = SIG_IGN;
+  sigaction(SIGXFSZ, &ignore, &before);
+  rlimit limits{};
+  getrlimit(RLIMIT_FSIZE, &limits);
+  rlimit small = limits;
+  small.rlim_cur = bytes;
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string message;
+  try {
+    write();
+  } catch (const std::exception& error) {
+    message = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &limits);
+  sigaction(SIGXFSZ, &before, nullptr);
+  return message;
+}
 
 /// 240 particles for about 90 steps.
 inline std::string small_bar(const std::string& more = "") {
