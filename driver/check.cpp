@@ -9,6 +9,7 @@
 #include "driver/commands.hpp"
 #include "driver/point.hpp"
 #include "models/equation_of_state/thermodynamics.hpp"
+#include "models/input/material_folders.hpp"
 #include "models/input/material_reader.hpp"
 #include "models/update.hpp"
 #include "models/visit.hpp"
@@ -277,15 +278,9 @@ std::vector<Finding> check_material(const std::filesystem::path& path) {
 }
 
 int run_check(const std::vector<std::filesystem::path>& given) {
-  std::vector<std::filesystem::path> files = given;
-  if (files.empty()) {
-    for (const std::filesystem::path folder : {BRISANCE_MATERIALS_SOURCE, BRISANCE_MATERIALS_INSTALLED}) {
-      if (!files.empty() || !std::filesystem::is_directory(folder)) continue;
-      for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (entry.path().extension() == ".toml") files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-  }
+  // A name means what it means in a case file.
+  std::vector<std::filesystem::path> files = given.empty() ? bundled_materials() : given;
+  for (std::filesystem::path& file : files) file = find_material(file, "").value_or(file);
   constexpr std::array<std::string_view, 3> words{"ok", "warning", "ERROR"};
   std::array<int, 3> counts{};
   bool readable = true;

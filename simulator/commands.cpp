@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "models/input/diagnostics.hpp"
+#include "models/input/material_folders.hpp"
 #include "models/input/units.hpp"
 #include "models/programs/progress.hpp"
 #include "simulator/case_reader.hpp"
@@ -129,13 +130,7 @@ int list() {
   row("basis functions", choices<Basis>), row("stress timings", choices<StressTiming>),
       row("particle velocities", choices<ParticleVelocity>);
   std::vector<std::string> materials;
-  for (const Path& directory : {Path(BRISANCE_MATERIALS_SOURCE), Path(BRISANCE_MATERIALS_INSTALLED)}) {
-    std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(directory, none))
-      if (entry.path().extension() == ".toml") materials.push_back(entry.path().filename().string());
-  }
-  std::sort(materials.begin(), materials.end());
-  materials.erase(std::unique(materials.begin(), materials.end()), materials.end());
+  for (const Path& file : bundled_materials()) materials.push_back(file.filename().string());
   row("materials that come with the program", materials);
   fmt::print("`brisance describe KEY` explains a key of a case file, `pointdriver list` the laws of materials\n");
   return done;

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "models/input/material_folders.hpp"
 #include "models/input/toml_tree.hpp"
 #include "models/input/units.hpp"
 
@@ -135,26 +136,6 @@ void read_list(TableReader& top, const std::string& component, std::vector<Varia
 
 void read_scalar_source(TableReader& top, const std::string& key, MaterialFile& file) {
   if (auto citation = top.optional_text(key + "_source")) file.sources[key] = std::move(*citation);
-}
-
-/// The first of the folders that holds the file; reports if none does.
-std::optional<Path> find_material(TableReader& table, std::string_view key, const Path& name) {
-  const Path beside = table.file().parent_path();
-  const std::array folders = {beside.empty() ? Path(".") : beside, Path(BRISANCE_MATERIALS_SOURCE),
-                              Path(BRISANCE_MATERIALS_INSTALLED)};
-  std::vector<std::string> present;
-  for (const Path& folder : folders) {
-    std::error_code error;
-    const Path candidate = folder / name;
-    if (std::filesystem::exists(candidate, error)) return beside.empty() && folder == "." ? name : candidate;
-    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-      if (entry->path().extension() == ".toml") present.push_back(entry->path().filename().string());
-  }
-  const std::vector<std::string_view> names(present.begin(), present.end());
-  std::string what = "there is no material file " + in_quotes(name.string());
-  if (name.is_relative()) what += " beside this file or in " + folders[1].string();
-  table.problem(key, what + did_you_mean(name.string(), names));
-  return std::nullopt;
 }
 
 // --- Writing ----------------------------------------------------------------------------------------------------------
@@ -320,8 +301,13 @@ MaterialFile resolve_material(TableReader& table, std::string_view key) {
   }
   const std::string name = table.text(key);
   const std::vector<std::string> overrides = table.take_overrides(key);
-  const auto path = name.empty() ? std::nullopt : find_material(table, key, name);
-  if (!path) return {};
+  if (name.empty()) return {};  // reported
+  const Path beside = table.file().parent_path();
+  const auto path = find_material(name, beside);
+  if (!path) {
+    table.problem(key, no_material_named(name, beside));
+    return {};
+  }
   try {
     InputFile input = InputFile::load(*path);
     for (const std::string& assignment : overrides) input.set(assignment);

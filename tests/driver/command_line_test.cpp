@@ -266,6 +266,12 @@ TEST(Check, TellsUnusableFilesFromUnphysicalMaterials) {
   EXPECT_EQ(call({"check", write_text(directory / "unphysical.toml", text)}).code, failed_while_running);
 }
 
+TEST(Check, FindsMaterialsOfTheProgramByName) {
+  const Answer a = call({"check", "steel_4340.toml"});
+  EXPECT_EQ(a.code, done);
+  EXPECT_TRUE(contains(a.out, "1 files: ")) << a.out;
+}
+
 class EveryCase : public testing::TestWithParam<fs::path> {};
 
 TEST_P(EveryCase, Runs) {

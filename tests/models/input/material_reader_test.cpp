@@ -14,6 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include "models/input/material_folders.hpp"
+
 namespace brisance {
 namespace {
 
@@ -386,6 +388,19 @@ TEST_F(NamedMaterial, ThatIsMissingOrWrongIsReported) {
             "/data/materials; did you mean \"my_steel.toml\"?");
   EXPECT_EQ(refusal("material = \"broken.toml\"\n"),
             "broken.toml:1:10: not valid TOML: in this array: encountered end-of-file; the slip may stand before this place");
+}
+
+TEST(BundledMaterials, AreThoseOfTheFirstFolderThatHasAny) {
+  const fs::path source = fs::path(BRISANCE_SOURCE_DIR) / "data/materials", none = "/there/is/no/such/folder";
+  const std::vector<fs::path> files = bundled_materials(std::vector{none, source});
+  EXPECT_TRUE(std::find(files.begin(), files.end(), source / "steel_4340.toml") != files.end());
+  EXPECT_TRUE(std::is_sorted(files.begin(), files.end()));
+  try {
+    bundled_materials(std::vector{none});
+    ADD_FAILURE() << "a program without its materials must say so";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(none.string()), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

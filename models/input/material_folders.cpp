@@ -1,0 +1,77 @@
+#include "models/input/material_folders.hpp"
+
+#include <algorithm>
+
+#include "models/input/diagnostics.hpp"
+
+namespace brisance {
+namespace {
+
+using Path = std::filesystem::path;
+
+std::vector<Path> files_in(const Path& folder) {
+  std::vector<Path> files;
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (entry->path().extension() == ".toml") files.push_back(entry->path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string joined(std::span<const Path> folders) {
+  std::string text;
+  for (const Path& folder : folders) text += (text.empty() ? "" : ", ") + folder.string();
+  return text;
+}
+
+}  // namespace
+
+std::vector<Path> material_folders() {
+  std::vector<Path> folders;
+  std::error_code error;
+  const Path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) folders.push_back((program.parent_path() / BRISANCE_MATERIALS_FROM_PROGRAM).lexically_normal());
+  for (const Path folder : {BRISANCE_MATERIALS_SOURCE, BRISANCE_MATERIALS_INSTALLED})
+    if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
+  return folders;
+}
+
+std::vector<Path> bundled_materials(std::span<const Path> folders) {
+  for (const Path& folder : folders)
+    if (std::vector<Path> files = files_in(folder); !files.empty()) return files;
+  throw InputError({{"", 0, 0, "",
+                     "the material files that come with the program are not there: looked in " + joined(folders) +
+                         "; install them (cmake --install BUILD), or name files of your own"}});
+}
+
+std::vector<Path> bundled_materials() {
+  return bundled_materials(material_folders());
+}
+
+std::optional<Path> find_material(const Path& name, const Path& beside) {
+  std::error_code error;
+  const Path own = beside / name;
+  if (std::filesystem::exists(own, error)) return own;
+  for (const Path& folder : material_folders())
+    if (const Path bundled = folder / name; std::filesystem::exists(bundled, error)) return bundled;
+  return std::nullopt;
+}
+
+std::string no_material_named(const Path& name, const Path& beside) {
+  std::string what = "there is no material file " + in_quotes(name.string());
+  std::vector<Path> present = files_in(beside.empty() ? "." : beside);
+  if (name.is_relative()) {
+    try {
+      const std::vector<Path> bundled = bundled_materials();
+      what += " beside this file or in " + bundled.front().parent_path().string();
+      present.insert(present.end(), bundled.begin(), bundled.end());
+    } catch (const InputError& error) {
+      what += " beside this file; " + std::string(error.what());
+    }
+  }
+  std::vector<std::string> names;
+  for (const Path& file : present) names.push_back(file.filename().string());
+  return what + did_you_mean(name.string(), std::vector<std::string_view>(names.begin(), names.end()));
+}
+
+}  // namespace brisance
