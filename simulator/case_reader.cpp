@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "models/equation_of_state/thermodynamics.hpp"
 #include "models/input/csv.hpp"
 #include "models/input/table_reader.hpp"
 #include "simulator/keys.hpp"
@@ -38,8 +39,15 @@ class CaseReader {
   Case read(TableReader& top) {
     read_keys(top, case_);
     if (case_.title.empty()) case_.title = top.file().stem().string();
-    if (case_.bodies.empty() && (!top.has("solid") || top.problem_count() == 0))
-      top.problem("there is no [[solid]]; a case has at least one");
+    if (case_.bodies.empty() && !case_.gas && (!top.has("solid") || top.problem_count() == 0))
+      top.problem("there is no [[solid]] and no [gas]; a case has one of them");
+    if (!case_.bodies.empty() && case_.gas) top.problem("gas", "a case holds either solids or gas, not yet both");
+    if (!case_.bodies.empty() && geometry_known_ && dimensions() == 1)
+      top.problem("geometry", "in one dimension there is gas alone; solids need plane, axisymmetric or three_dimensional");
+    if (case_.gas) {
+      for (const char* key : {"boundary", "load", "measure"})
+        if (top.has(key)) top.problem(key, "it would be ignored: there are no solids; the sides of the gas are [[gas.edge]]");
+    }
     return std::move(case_);
   }
 
@@ -113,7 +121,7 @@ class CaseReader {
     // Without a geometry two components are as good as three.
     const Length length = key.components == Components::three ? exactly(3)
                           : geometry_known_                   ? exactly(dimensions())
-                                                              : Length{2, 3};
+                                                              : Length{1, 3};
     const std::vector<double> numbers = in.numbers(key.name, quantity(key), length);
     std::copy_n(numbers.begin(), std::min(numbers.size(), value.size()), value.begin());
   }
@@ -149,11 +157,21 @@ class CaseReader {
     TableReader table = in.table(key.name);
     read_law(table, value.emplace());
   }
+  template <class K>
+  void read_value(TableReader& in, const K& key, std::optional<GasConfig>& value) {
+    TableReader table = in.table(key.name);
+    const std::size_t before = in.problem_count();
+    gas_ = &value.emplace();
+    read_keys(table, *gas_);
+    if (in.problem_count() == before && geometry_known_) check_box(table, *gas_);
+    gas_ = nullptr;
+  }
   template <class K, class Config>
   void read_value(TableReader& in, const K& key, std::vector<Config>& value) {
     for (TableReader& table : in.tables(key.name)) {
       const std::size_t before = in.problem_count();
-      if constexpr (std::is_same_v<Config, BodyConfig>) table.optional_texts("material_changes");  // read_case applied them
+      if constexpr (std::is_same_v<Config, BodyConfig> || std::is_same_v<Config, FluidConfig>)
+        table.optional_texts("material_changes");  // read_case applied them
       Config config{};
       read_keys(table, config);
       if (in.problem_count() == before && geometry_known_) check(table, config, value);
@@ -414,6 +432,85 @@ class CaseReader {
                                    above ? "below" : "above", in_metres(boundary.position), above ? "above" : "below"));
   }
 
+  void check(TableReader& in, FluidConfig& fluid, const std::vector<FluidConfig>& others) {
+    require_own_name(in, fluid, others);
+    if (equation_of_state::caloric(fluid.material.material.equation_of_state) == equation_of_state::Caloric::incremental)
+      in.problem("material", "its equation of state gives differences of pressure only; a fluid needs p(rho, e)");
+  }
+
+  template <class State>
+  void check_gas_state(TableReader& in, State& state) {
+    if (state.fluid.empty() && gas_->fluids.size() == 1) {
+      state.fluid = gas_->fluids.front().name;
+    } else {
+      std::vector<std::string_view> names;
+      for (const FluidConfig& fluid : gas_->fluids) names.push_back(fluid.name);
+      if (state.fluid.empty())
+        in.problem("which fluid it is is unknown; give `fluid`, " + listed(names));
+      else if (std::find(names.begin(), names.end(), state.fluid) == names.end())
+        in.problem("fluid", "there is no fluid " + in_quotes(state.fluid) + "; there is " + listed(names) +
+                                did_you_mean(state.fluid, names));
+    }
+    if (!in.has("pressure")) in.problem("pressure", "missing: the pressure of the gas");
+    if (state.density.has_value() == state.temperature.has_value())
+      in.problem(state.density ? "there are a density and a temperature; give one of the two"
+                               : "neither density nor temperature is given; give one of the two");
+  }
+  void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& others) {
+    check_gas_state(in, fill);
+    if (others.empty() && fill.shape) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
+  }
+  void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& others) {
+    const auto same_side = [&](const EdgeConfig& other) { return other.side == edge.side; };
+    if (std::any_of(others.begin(), others.end(), same_side)) in.problem("side", "this side is given twice; give each once");
+    if (static_cast<std::size_t>(edge.side) / 2 >= dimensions())
+      in.problem("side", fmt::format("in {} dimension{} there is no such side", dimensions(), dimensions() == 1 ? "" : "s"));
+    const bool given =
+        in.has("pressure") || in.has("density") || in.has("temperature") || in.has("velocity") || in.has("fluid");
+    if (edge.kind == EdgeKind::inflow || edge.kind == EdgeKind::non_reflecting) {
+      check_gas_state(in, edge);
+    } else if (edge.kind == EdgeKind::pressure) {
+      if (!in.has("pressure")) in.problem("pressure", "missing: the pressure beyond");
+      if (in.has("density") || in.has("temperature") || in.has("velocity") || in.has("fluid"))
+        in.problem("only the pressure counts beyond an edge of this kind; remove the rest, or make it non_reflecting");
+    } else if (given) {
+      in.problem("a state would be ignored: nothing comes through a wall or from beyond a period");
+    }
+  }
+  void check_box(TableReader& in, GasConfig& gas) {
+    for (std::size_t k = 0; k < dimensions() && case_.cell_size > 0.0; ++k) {
+      if (!(gas.lower[k] < gas.upper[k]))
+        in.problem("upper", fmt::format("along {} the box ends before it begins", axis_names[k]));
+      for (const auto& [name, corner] : {std::pair{"lower", gas.lower[k]}, std::pair{"upper", gas.upper[k]}}) {
+        const double cells = corner / case_.cell_size;
+        if (std::abs(cells - std::round(cells)) > round_off * std::max(1.0, std::abs(cells)))
+          in.problem(name, fmt::format("along {} {} is on no plane of nodes; the nearest are {} and {}", axis_names[k],
+                                       in_metres(corner), in_metres(std::floor(cells) * case_.cell_size),
+                                       in_metres(std::ceil(cells) * case_.cell_size)));
+      }
+      const double cells = (gas.upper[k] - gas.lower[k]) / case_.cell_size;
+      constexpr double least = 4.0;
+      if (cells < least - round_off)
+        in.problem("upper", fmt::format("along {} the box is {:.3g} cells wide; {:g} at least", axis_names[k], cells, least));
+    }
+    const bool round = is_round(case_.geometry);
+    if (round && gas.lower[0] < 0.0) in.problem("lower", "r = " + in_metres(gas.lower[0]) + "; a radius is not negative");
+    if (round && case_.gravity[0] != 0.0) in.problem("lower", "gravity along r is not possible");
+    for (const EdgeConfig& edge : gas.edges) {
+      const auto number = static_cast<std::size_t>(edge.side);
+      const auto opposite = static_cast<BoxSide>(number ^ 1);
+      const bool both = std::any_of(gas.edges.begin(), gas.edges.end(), [&](const EdgeConfig& other) {
+        return other.side == opposite && other.kind == EdgeKind::periodic;
+      });
+      if (edge.kind == EdgeKind::periodic && !both)
+        in.problem("edge",
+                   fmt::format("{} is periodic, {} is not; give both", choices<BoxSide>[number], choices<BoxSide>[number ^ 1]));
+      if (edge.kind == EdgeKind::periodic && round && number < 2) in.problem("edge", "along r nothing is periodic");
+      if (round && edge.side == BoxSide::low_x && gas.lower[0] == 0.0 && edge.kind != EdgeKind::wall)
+        in.problem("edge", "low_x is the axis; it can be nothing else");
+    }
+  }
+
   void check(TableReader& in, LoadConfig& load, const std::vector<LoadConfig>&) {
     resolve_body(in, load.body, "the load");
     const bool traction = load.traction != Vector{};
@@ -428,6 +525,7 @@ class CaseReader {
     require_own_name(in, gauge, others);
     require_component_in_geometry(in, gauge.axis);
     if (!gauge.body.empty()) require_body(in, gauge.body);
+    if (case_.gas) return check_gas_gauge(in, gauge);
     for (const std::string& field : gauge.fields)
       if (std::find(gauge_fields.begin(), gauge_fields.end(), field) == gauge_fields.end())
         in.problem("fields", in_quotes(field) + " cannot be recorded; it must be one of " + listed(gauge_fields) +
@@ -442,6 +540,26 @@ class CaseReader {
     } else if (gauge.from == gauge.to) {
       in.problem("to", "it is where `from` is; only a point has no extent");
     }
+  }
+
+  void check_gas_gauge(TableReader& in, GaugeConfig& gauge) {
+    if (gauge.kind != GaugeKind::point && gauge.kind != GaugeKind::line)
+      in.problem("kind", "in gas a gauge is a point or a line");
+    if (in.has("moves") && gauge.moves) in.problem("moves", "in gas a gauge stands still");
+    if (!gauge.body.empty()) in.problem("body", "it would be ignored: there are no bodies");
+    gauge.moves = false;
+    std::vector<std::string> names = {"density", "pressure", "velocity", "temperature", "energy", "sound_speed"};
+    for (const FluidConfig& fluid : case_.gas->fluids)
+      if (case_.gas->fluids.size() > 1) names.push_back("fraction_" + fluid.name);
+    const std::vector<std::string_view> allowed(names.begin(), names.end());
+    for (const std::string& field : gauge.fields)
+      if (std::find(names.begin(), names.end(), field) == names.end())
+        in.problem("fields", in_quotes(field) + " cannot be recorded in gas; it must be one of " + listed(allowed) +
+                                 did_you_mean(field, allowed));
+    for (std::size_t k = 0; k < dimensions(); ++k)
+      for (const Vector& place : {gauge.from, gauge.kind == GaugeKind::line ? gauge.to : gauge.from})
+        if (place[k] < case_.gas->lower[k] || place[k] > case_.gas->upper[k])
+          return in.problem("from", fmt::format("along {} it leaves the box of the gas", axis_names[k]));
   }
 
   void check(TableReader& in, MeasureConfig& measure, const std::vector<MeasureConfig>& others) {
@@ -471,6 +589,7 @@ class CaseReader {
   }
 
   Case case_;
+  GasConfig* gas_ = nullptr;  // that is being read
   bool geometry_known_ = true;
 };
 
@@ -486,9 +605,14 @@ std::vector<MaterialChange> changes_in(const Path& file, const std::vector<std::
   InputFile input = InputFile::load(file);
   for (const std::string& assignment : overrides) input.set(assignment);
   std::vector<MaterialChange> changes;
-  for (TableReader& solid : input.top().tables("solid"))
-    for (const std::string& change : solid.optional_texts("material_changes").value_or(std::vector<std::string>{}))
-      changes.push_back({solid.path_of("material"), change});
+  const auto look = [&](std::vector<TableReader> tables) {
+    for (TableReader& table : tables)
+      for (const std::string& change : table.optional_texts("material_changes").value_or(std::vector<std::string>{}))
+        changes.push_back({table.path_of("material"), change});
+  };
+  TableReader top = input.top();
+  look(top.tables("solid"));
+  if (top.is_table("gas")) look(top.table("gas").tables("fluid"));
   return changes;
 }
 

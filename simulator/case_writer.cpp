@@ -23,6 +23,8 @@ template <class T>
 constexpr bool is_section =
     std::is_same_v<T, NumericsConfig> || std::is_same_v<T, OutputConfig> || std::is_same_v<T, GateConfig>;
 template <class T>
+constexpr bool is_optional_section = std::is_same_v<T, std::optional<GasConfig>>;
+template <class T>
 constexpr bool is_list_of_sections = false;
 template <class T>
 constexpr bool is_list_of_sections<std::vector<T>> = !std::is_same_v<T, std::string>;
@@ -110,7 +112,7 @@ class CaseWriter {
   template <class Config>
   void lines(const Config& config, const std::string& path) {
     for_each_key<Config>([&]<class T>(const Key<Config, T>& key) {
-      if constexpr (!is_section<T> && !is_list_of_sections<T> && !std::is_same_v<T, MaterialFile>) {
+      if constexpr (!is_section<T> && !is_optional_section<T> && !is_list_of_sections<T> && !std::is_same_v<T, MaterialFile>) {
         const std::string written = value(config.*key.member, key.components);
         if (!written.empty()) text_ += std::string(key.name) + " = " + written + comment(key.unit, key.meaning) + '\n';
       }
@@ -122,6 +124,11 @@ class CaseWriter {
       } else if constexpr (is_section<T>) {
         text_ += "\n[" + inner + "]\n";
         lines(config.*key.member, inner);
+      } else if constexpr (is_optional_section<T>) {
+        if (config.*key.member) {
+          text_ += "\n[" + inner + "]\n";
+          lines(*(config.*key.member), inner);
+        }
       } else if constexpr (is_list_of_sections<T>) {
         for (const auto& element : config.*key.member) {
           text_ += "\n[[" + inner + "]]\n";

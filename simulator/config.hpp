@@ -21,6 +21,10 @@ enum class Geometry { plane, axisymmetric, three_dimensional, planar_1d, cylindr
 constexpr int number_of_dimensions(Geometry g) {
   return g == Geometry::three_dimensional ? 3 : g == Geometry::plane || g == Geometry::axisymmetric ? 2 : 1;
 }
+/// Whether x is a radius.
+constexpr bool is_round(Geometry g) {
+  return g == Geometry::axisymmetric || g == Geometry::cylindrical_1d || g == Geometry::spherical_1d;
+}
 enum class Basis { quadratic_spline, ugimp };
 /// When the stress is updated within the step: from the velocities mapped back after the particles have moved (musl), from the
 /// new grid velocities (usl), or from the grid velocities before the forces act (usf).
@@ -117,6 +121,48 @@ struct LoadConfig {
   std::optional<Table> amplitude;  // of the traction, against s
 };
 
+// Gas ----------------------------------------------------------------------------------------------------------------
+
+enum class EdgeKind {
+  wall,            // reflects; also a plane of symmetry and the axis
+  inflow,          // the state beyond is given
+  pressure,        // the pressure beyond is given, the rest follows the gas inside
+  non_reflecting,  // waves leave into a given state beyond
+  periodic         // the other side of the box
+};
+enum class BoxSide { low_x, high_x, low_y, high_y, low_z, high_z };
+
+struct FluidConfig {
+  std::string name;
+  MaterialFile material;  // of which the equation of state counts
+};
+
+/// A state of gas: what fills a region at the start, or what lies beyond an edge.
+struct GasStateConfig {
+  std::string fluid;                  // empty: the only one
+  std::optional<double> density;      // kg/m^3; this or the temperature
+  std::optional<double> temperature;  // K
+  double pressure = 0.0;              // Pa
+  Vector velocity{};                  // m/s
+};
+struct FillConfig : GasStateConfig {
+  ShapePointer shape;  // absent: everywhere
+};
+struct EdgeConfig : GasStateConfig {
+  BoxSide side = BoxSide::low_x;
+  EdgeKind kind = EdgeKind::wall;
+};
+
+/// Gas in a box of cells, with walls where no edge says otherwise. Later fills lie over earlier ones.
+struct GasConfig {
+  Vector lower{}, upper{};  // m, on planes of nodes
+  double courant = 0.0;     // 0: 0.5
+  double least_mach = 0.01;
+  std::vector<FluidConfig> fluids;
+  std::vector<FillConfig> fills;
+  std::vector<EdgeConfig> edges;
+};
+
 // Observation --------------------------------------------------------------------------------------------------------
 
 enum class GaugeKind { point, line, plane, surface };
@@ -190,6 +236,7 @@ struct Case {
   std::vector<BodyConfig> bodies;
   std::vector<BoundaryConfig> boundaries;
   std::vector<LoadConfig> loads;
+  std::optional<GasConfig> gas;
   std::vector<GaugeConfig> gauges;
   std::vector<MeasureConfig> measures;
   OutputConfig output;
@@ -203,9 +250,9 @@ struct Case {
 namespace brisance {
 
 template <>
-inline constexpr std::array choices<simulator::Geometry> = {std::string_view{"plane"},        std::string_view{"axisymmetric"},
-                                                            std::string_view{"three_dimensional"}, std::string_view{"planar_1d"},
-                                                            std::string_view{"cylindrical_1d"},    std::string_view{"spherical_1d"}};
+inline constexpr std::array choices<simulator::Geometry> = {
+    std::string_view{"plane"},     std::string_view{"axisymmetric"},   std::string_view{"three_dimensional"},
+    std::string_view{"planar_1d"}, std::string_view{"cylindrical_1d"}, std::string_view{"spherical_1d"}};
 template <>
 inline constexpr std::array choices<simulator::Basis> = {std::string_view{"quadratic_spline"}, std::string_view{"ugimp"}};
 template <>
@@ -221,6 +268,14 @@ template <>
 inline constexpr std::array choices<simulator::BoundaryKind> = {std::string_view{"symmetry"}, std::string_view{"fixed"},
                                                                 std::string_view{"velocity"}, std::string_view{"rigid_wall"},
                                                                 std::string_view{"outflow"}};
+template <>
+inline constexpr std::array choices<simulator::EdgeKind> = {std::string_view{"wall"}, std::string_view{"inflow"},
+                                                            std::string_view{"pressure"}, std::string_view{"non_reflecting"},
+                                                            std::string_view{"periodic"}};
+template <>
+inline constexpr std::array choices<simulator::BoxSide> = {std::string_view{"low_x"}, std::string_view{"high_x"},
+                                                           std::string_view{"low_y"}, std::string_view{"high_y"},
+                                                           std::string_view{"low_z"}, std::string_view{"high_z"}};
 template <>
 inline constexpr std::array choices<simulator::GaugeKind> = {std::string_view{"point"}, std::string_view{"line"},
                                                              std::string_view{"plane"}, std::string_view{"surface"}};

@@ -45,6 +45,24 @@ void check_fastest(double limit, const Simulation& s) {
   });
 }
 
+/// Sums of very many cells, each of which rounds.
+template <class Require>
+void check_gas(const GateConfig& limits, const GasBooks& books, const Simulation& s, const Require& require) {
+  const gas::Totals residual = books.residual();
+  double mass = 0.0, energy = std::abs(books.state.energy) + std::abs(books.initial.energy);
+  for (std::size_t r = 0; r < residual.mass.size(); ++r) mass += books.state.mass[r] + books.initial.mass[r];
+  for (const auto& [name, through] : books.entries) {
+    energy += std::abs(through.energy);
+    for (const double m : through.mass) mass += std::abs(m);
+  }
+  for (const double m : residual.mass)
+    require("residual", "mass of gas that is in no book", std::abs(m), limits.residual * mass, "kg");
+  require("residual", "energy of gas that is in no book", std::abs(residual.energy), limits.residual * energy, "J");
+  if (is_round(s.geometry)) return;
+  require("residual", "momentum of gas that is in no book", magnitude(residual.momentum),
+          limits.residual * std::sqrt(2.0 * mass * energy), "kg m/s");
+}
+
 }  // namespace
 
 void check_gates(const GateConfig& limits, const Simulation& s, const Books& books) {
@@ -53,6 +71,7 @@ void check_gates(const GateConfig& limits, const Simulation& s, const Books& boo
     throw GateExceeded(fmt::format("gate {}: {} is {:.6g} {}, {:.6g} {} at most is allowed; step {}, time {:.6g} s", gate, what,
                                    value, unit, limit, unit, s.step, s.time));
   };
+  if (books.gas) return check_gas(limits, *books.gas, s, require);
   const Balance& b = books.balance;
   // A body at rest that is loaded has no kinetic energy to speak of, but takes up energy all the same.
   const double energy = std::max(books.peak_kinetic, std::abs(b.internal.total - books.initial_internal));

@@ -79,7 +79,7 @@ class Describer {
   void describe(const std::string& path, const K& key, const Vector&) {
     const bool three = key.components == Components::three;
     add(path, key,
-        std::string(three ? "a list of 3 components" : "a list of 2 or 3 components, by geometry") + ", each " + numbers(key),
+        std::string(three ? "a list of 3 components" : "a list of 1 to 3 components, by geometry") + ", each " + numbers(key),
         "0");
   }
   template <class K>
@@ -127,6 +127,10 @@ class Describer {
   void describe(const std::string& path, const K& key, const std::optional<StrengthDistribution>&) {
     add(path, key, "a table");
     describe_all<StrengthDistribution>(path);
+  }
+  template <class K>
+  void describe(const std::string& path, const K& key, const std::optional<GasConfig>&) {
+    describe(path, key, GasConfig{});
   }
   template <class K, class Config>
   requires has_keys<Config>

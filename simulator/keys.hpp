@@ -152,6 +152,49 @@ inline constexpr auto keys<LoadConfig> = std::tuple{
     Key{"traction", &LoadConfig::traction, Unit::Pa, "force per area of the undeformed surface"},
     Key{"amplitude", &LoadConfig::amplitude, Unit::one, "factor on the traction; a table over time"}};
 
+// Gas: [gas], [[gas.fluid]], [[gas.fill]], [[gas.edge]] ------------------------------------------------------------------
+
+template <>
+inline constexpr auto keys<FluidConfig> =
+    std::tuple{Key{"name", &FluidConfig::name, Unit::one, "what the fluid is called here and in output", any_value, required},
+               Key{"material", &FluidConfig::material, Unit::one,
+                   "name of a material file, or the material itself; its equation of state counts", any_value, required}};
+
+/// The keys of a state of gas, of a region or an edge.
+template <class Config>
+inline constexpr auto gas_state_keys =
+    std::tuple{Key<Config, std::string>{"fluid", &Config::fluid, Unit::one, "which fluid it is; the only one if not given"},
+               Key<Config, double>{"pressure", &Config::pressure, Unit::Pa, "its pressure"},
+               Key<Config, std::optional<double>>{"density", &Config::density, Unit::kg_per_m3, "its density, or", positive},
+               Key<Config, std::optional<double>>{"temperature", &Config::temperature, Unit::K, "its temperature", positive},
+               Key<Config, Vector>{"velocity", &Config::velocity, Unit::m_per_s, "its velocity"}};
+
+template <>
+inline constexpr auto keys<FillConfig> = std::tuple_cat(
+    std::tuple{Key{"shape", &FillConfig::shape, Unit::one, "the region it fills at the start; all of the box if not given"}},
+    gas_state_keys<FillConfig>);
+
+template <>
+inline constexpr auto keys<EdgeConfig> = std::tuple_cat(
+    std::tuple{Key{"side", &EdgeConfig::side, Unit::one, "side of the box", any_value, required},
+               Key{"kind", &EdgeConfig::kind, Unit::one,
+                   "wall: reflects; inflow: the state beyond is given; pressure: the pressure beyond is given; non_reflecting: "
+                   "waves leave into a given state; periodic: continues at the opposite side",
+                   any_value, required}},
+    gas_state_keys<EdgeConfig>);
+
+template <>
+inline constexpr auto keys<GasConfig> = std::tuple{
+    Key{"lower", &GasConfig::lower, Unit::m, "lower corner of the box, a multiple of cell_size", any_value, required},
+    Key{"upper", &GasConfig::upper, Unit::m, "upper corner of the box, a multiple of cell_size", any_value, required},
+    Key{"courant", &GasConfig::courant, Unit::one, "part of the stable step; 0: 0.5", fraction},
+    Key{"least_mach", &GasConfig::least_mach, Unit::one,
+        "Mach number below which the damping of slow flow falls no further; 1: always that of a shock", fraction},
+    Key{"fluid", &GasConfig::fluids, Unit::one, "a gas or liquid", any_value, required},
+    Key{"fill", &GasConfig::fills, Unit::one, "what a region holds at the start; later ones lie over earlier ones", any_value,
+        required},
+    Key{"edge", &GasConfig::edges, Unit::one, "a side of the box that is no wall"}};
+
 // Observation: [[gauge]], [[measure]], [output], [gates] -----------------------------------------------------------------
 
 template <>
@@ -230,15 +273,18 @@ inline constexpr auto keys<NumericsConfig> = std::tuple{
 template <>
 inline constexpr auto keys<Case> =
     std::tuple{Key{"title", &Case::title, Unit::one, "one line; the name of the file if not given"},
-               Key{"geometry", &Case::geometry, Unit::one, "plane: x, y; axisymmetric: r, z; three_dimensional: x, y, z",
+               Key{"geometry", &Case::geometry, Unit::one,
+                   "plane: x, y; axisymmetric: r, z; three_dimensional: x, y, z; of gas alone: planar_1d: x; cylindrical_1d, "
+                   "spherical_1d: r",
                    any_value, required},
                Key{"cell_size", &Case::cell_size, Unit::m, "width of a cell of the grid", positive, required},
                Key{"end_time", &Case::end_time, Unit::s, "simulated time at the end", positive, required},
                Key{"gravity", &Case::gravity, m_per_s2, "acceleration of all bodies"},
                Key{"numerics", &Case::numerics, Unit::one, "how it is computed"},
-               Key{"solid", &Case::bodies, Unit::one, "a body", any_value, required},
+               Key{"solid", &Case::bodies, Unit::one, "a body"},
                Key{"boundary", &Case::boundaries, Unit::one, "a plane that bounds the bodies"},
                Key{"load", &Case::loads, Unit::one, "pressure or traction on a surface"},
+               Key{"gas", &Case::gas, Unit::one, "gas in a box of cells"},
                Key{"gauge", &Case::gauges, Unit::one, "a place that is watched over time"},
                Key{"measure", &Case::measures, Unit::one, "a number that an experiment gave as well"},
                Key{"output", &Case::output, Unit::one, "what is written, and when"},

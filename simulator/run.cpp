@@ -32,10 +32,14 @@ struct RunFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-std::int64_t count_particles(const Simulation& s) {
-  std::int64_t count = 0;
+/// Particles, or cells of gas.
+std::int64_t count_points(const Simulation& s) {
+  std::int64_t count = s.gas.empty() ? 0 : s.gas.cells.count();
   for (const Body& body : s.bodies) count += body.particles.size;
   return count;
+}
+std::string_view points_of(const Simulation& s) {
+  return s.gas.empty() ? "particle" : "cell";
 }
 
 /// How often an interval fits into a time; what is due at a time depends on nothing else.
@@ -54,6 +58,11 @@ std::string clock_text(double seconds) {
   return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
+/// Why a step was too large.
+std::string why_rejected(const Simulation& s, double dt) {
+  return s.bodies.empty() ? "a cell of gas would be left without volume or energy" : worst_point(s, dt);
+}
+
 /// What a run writes, and when.
 class Run {
  public:
@@ -68,7 +77,7 @@ class Run {
         row_interval_(c.output.history_interval > 0.0 ? c.output.history_interval : c.end_time / 500.0) {}
 
   RunResult begin() {
-    log_.line(fmt::format("{}: {} particles, {} threads", case_.title, count_particles(s_), omp_get_max_threads()));
+    log_.line(fmt::format("{}: {} {}s, {} threads", case_.title, count_points(s_), points_of(s_), omp_get_max_threads()));
     return guarded([&] {
       history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), 0);
       add_row();
@@ -151,12 +160,12 @@ class Run {
         throw RunFailure(fmt::format(
             "step {} at {:.6g} s would have to be {:.4g} s{}; it is limited by {}{}", s_.step + 1, s_.time, size.dt,
             case_.numerics.least_step > 0.0 ? fmt::format(", less than {:.4g} s", case_.numerics.least_step) : "", size.limit,
-            halvings > 0 ? fmt::format(", and was rejected {} times; {}", halvings, worst_point(s_, 2.0 * size.dt)) : ""));
+            halvings > 0 ? fmt::format(", and was rejected {} times; {}", halvings, why_rejected(s_, 2.0 * size.dt)) : ""));
       if (advance(s_, size.dt) == StepOutcome::done) return;
       constexpr int most_lines = 100;
       if (++rejections_ <= most_lines)
         log_.line(fmt::format("step {} at {:.6g} s: rejected with {:.4g} s; {}", s_.step + 1, s_.time, size.dt,
-                              worst_point(s_, size.dt)));
+                              why_rejected(s_, size.dt)));
     }
   }
 
@@ -193,10 +202,10 @@ class Run {
     const double rate = static_cast<double>(s_.step - progress_step_) / since, speed = (s_.time - progress_simulated_) / since;
     progress_time_ = now, progress_step_ = s_.step, progress_simulated_ = s_.time;
     if (!progress_line_) progress_line_.emplace();
-    progress_line_->show(
-        fmt::format("{:5.1f} %  {:.4g} s  step {} of {:.3g} s  {:.3g} steps/s  {:.3g} particle-steps/s  {} left  {:.0f} MB",
-                    100.0 * s_.time / end_, s_.time, s_.step, s_.last_time_step, rate,
-                    rate * static_cast<double>(count_particles(s_)), clock_text((end_ - s_.time) / speed), megabytes_used()));
+    progress_line_->show(fmt::format(
+        "{:5.1f} %  {:.4g} s  step {} of {:.3g} s  {:.3g} steps/s  {:.3g} {}-steps/s  {} left  {:.0f} MB",
+        100.0 * s_.time / end_, s_.time, s_.step, s_.last_time_step, rate, rate * static_cast<double>(count_points(s_)),
+        points_of(s_), clock_text((end_ - s_.time) / speed), megabytes_used()));
   }
 
   void finish(RunResult& result) {
@@ -208,9 +217,9 @@ class Run {
                result.message,
                s_.time,
                s_.step,
-               count_particles(s_),
+               count_points(s_),
                log_.wall_time(),
-               static_cast<double>((s_.step - first_step_) * count_particles(s_)) / seconds,
+               static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds,
                omp_get_max_threads(),
                books_of(s_),
                measures_.read(s_)};
@@ -266,7 +275,7 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   "",
                   s.time,
                   s.step,
-                  count_particles(s),
+                  count_points(s),
                   restored.progress.wall_time,
                   0.0,
                   omp_get_max_threads(),

@@ -12,6 +12,7 @@
 #include "models/random.hpp"
 #include "models/update.hpp"
 #include "models/visit.hpp"
+#include "simulator/gas/gas_setup.hpp"
 #include "simulator/solid/motion.hpp"
 #include "simulator/solid/shapes.hpp"
 #include "simulator/time_step.hpp"
@@ -226,7 +227,7 @@ Body build(const Case& c, std::size_t number) {
 /// Cuts the blocks that hold particles into ranges of nearly equal numbers of particles.
 Partition partition_of(const std::vector<Body>& bodies, double cell_size, int ranks) {
   Partition result;
-  if (ranks == 1) return result;
+  if (ranks == 1 || bodies.empty()) return result;
   std::vector<BlockKey> keys;
   for (const Body& body : bodies)
     for (int p = 0; p < body.particles.size; ++p) keys.push_back(block_of(body.particles, p, cell_size));
@@ -272,7 +273,7 @@ Simulation set_up(const Case& c, std::shared_ptr<Domain> domain) {
   s.gravity = c.gravity;
   s.domain = std::move(domain);
   s.grid.dimensions = c.dimensions(), s.grid.cell_size = c.cell_size;
-  if (c.geometry == Geometry::axisymmetric) {
+  if (c.geometry == Geometry::axisymmetric && !c.bodies.empty()) {
     Boundary axis;
     axis.name = "axis", axis.kind = BoundaryKind::symmetry;
     s.boundaries.push_back(axis);
@@ -281,6 +282,7 @@ Simulation set_up(const Case& c, std::shared_ptr<Domain> domain) {
   for (std::size_t b = 0; b < c.bodies.size(); ++b) s.bodies.push_back(make_body(c, b));
   s.partition = partition_of(s.bodies, c.cell_size, s.domain->size());
   for (Body& body : s.bodies) keep_own(s, body);
+  s.gas = gas::make_gas(c, *s.domain);
   begin(s);
   return s;
 }

@@ -7,6 +7,7 @@
 #include "models/material.hpp"
 #include "simulator/config.hpp"
 #include "simulator/domain/domain.hpp"
+#include "simulator/gas/gas.hpp"
 #include "simulator/grid/boundary.hpp"
 #include "simulator/grid/grid.hpp"
 #include "simulator/ledger.hpp"
@@ -64,6 +65,7 @@ struct Simulation {
   Geometry geometry = Geometry::three_dimensional;
   Numerics numerics;
   std::vector<Body> bodies;
+  gas::Gas gas;
   std::vector<Boundary> boundaries;
   Vector gravity{};
   BodyForce body_force;  // empty: none

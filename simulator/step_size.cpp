@@ -28,6 +28,13 @@ StepSize next_step(const Simulation& s, const NumericsConfig& numerics, double e
     if (b.kind == BoundaryKind::velocity && b.velocity(s.time) != 0.0)
       limit(farthest * h / std::abs(b.velocity(s.time)), "the speed of a boundary");
   if (e.volume_rate > 0.0) limit(numerics.most_volume_change / e.volume_rate, "the rate of volume change");
+  if (!s.gas.empty()) {
+    constexpr double part = 0.5;
+    // A jump at the start sends out waves that nobody knows of yet.
+    constexpr double first = 0.1;
+    const double step = gas::largest_step(s.gas, s.gas.courant > 0.0 ? s.gas.courant : part);
+    limit(s.last_time_step > 0.0 ? step : first * step, "the speed of waves in the gas");
+  }
   if (s.last_time_step > 0.0)
     limit(numerics.growth * s.last_time_step, "growth from the step before");
   else if (numerics.first_step > 0.0)

@@ -63,9 +63,16 @@ StepOutcome advance_usf(Simulation& s, double dt, double dt_velocity) {
   return StepOutcome::done;
 }
 
+StepOutcome advance_gas(Simulation& s, double dt) {
+  if (gas::advance(s.gas, dt, *s.domain) == gas::Outcome::rejected) return StepOutcome::rejected;
+  s.time += dt, s.last_time_step = dt, ++s.step;
+  return StepOutcome::done;
+}
+
 }  // namespace
 
 StepOutcome advance(Simulation& s, double dt) {
+  if (s.bodies.empty()) return advance_gas(s, dt);
   const double dt_velocity = 0.5 * (dt + s.last_time_step);
   move_planes(s.boundaries, s.time, s.grid.cell_size);
   activate_blocks(s);
@@ -80,6 +87,7 @@ StepOutcome advance(Simulation& s, double dt) {
 }
 
 void begin(Simulation& s) {
+  if (s.bodies.empty()) return;
   place_particles(s);
   activate_blocks(s);
   s.extremes = extremes_of(s);

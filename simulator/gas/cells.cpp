@@ -134,6 +134,14 @@ bool Cells::contains(const std::array<int, 3>& cell) const {
   return true;
 }
 
+std::optional<CellPlace> Cells::find(const std::array<int, 3>& cell) const {
+  const auto place = std::lower_bound(blocks.begin(), blocks.end(), key_of(cell, dimensions));
+  if (place == blocks.end() || *place != key_of(cell, dimensions)) return std::nullopt;
+  const auto block = static_cast<std::int32_t>(place - blocks.begin());
+  if (!std::binary_search(mine.begin(), mine.end(), block)) return std::nullopt;
+  return CellPlace{static_cast<std::size_t>(block), cell_in_block(cell, dimensions)};
+}
+
 std::int64_t Cells::count() const {
   std::int64_t n = 1;
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimensions); ++a) n *= upper[a] - lower[a];

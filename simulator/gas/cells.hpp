@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,12 @@ struct BlockShape {
   static constexpr int cells = 8 * packs;
   static constexpr int pencils = D == 3 ? 8 : 1;      // along each axis
   static constexpr int faces = pencils * line_faces;  // packs of a quantity at the faces across one axis
+};
+
+/// A cell of this process.
+struct CellPlace {
+  std::size_t block = 0;
+  int cell = 0;
 };
 
 /// Quantities in the cells of all blocks: [block][quantity][cell].
@@ -105,6 +112,8 @@ struct Cells {
   std::array<int, 3> index(std::size_t block, int cell) const;
   bool contains(const std::array<int, 3>& cell) const;
   std::int64_t count() const;  // cells of the box
+  /// Where a cell is kept, if its block is owned here.
+  std::optional<CellPlace> find(const std::array<int, 3>& cell) const;
 };
 
 /// The blocks of a box of cells, shared out to the ranks of the domain in Morton order.

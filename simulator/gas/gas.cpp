@@ -1,6 +1,8 @@
 #include "simulator/gas/gas.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <stdexcept>
 
 #include "simulator/domain/message.hpp"
 #include "simulator/gas/equilibrium.hpp"
@@ -20,6 +22,21 @@ void settle(Gas& gas) {
     std::copy_n(gas.content.at(block, Content::room), gas.cells.packs(), gas.moved.at(block, Content::room));
   });
   std::swap(gas.content, gas.moved);
+}
+
+/// Adds up the blocks' numbers, so many a block. Ranks own the blocks in Morton order, so the blocks of all ranks follow each
+/// other as those of one rank would.
+std::vector<double> sum_of_ranks(const std::vector<double>& mine, std::size_t numbers, Domain& domain) {
+  std::vector<Message> all{Message{}};
+  append(all[0], mine.data(), mine.size());
+  if (domain.size() > 1) all = all_gather(domain, all[0]);
+  std::vector<CompensatedSum> sums(numbers);
+  for (const Message& message : all)
+    for (MessageReader reader(message); !reader.at_end();)
+      for (CompensatedSum& sum : sums) sum.add(reader.read<double>());
+  std::vector<double> total;
+  for (const CompensatedSum& sum : sums) total.push_back(sum.value());
+  return total;
 }
 
 }  // namespace
@@ -49,6 +66,7 @@ void fill(Gas& gas, const FillingFunction& filling, Domain& domain) {
       write_primitive(gas, block, c, f);
     }
   begin(gas, domain);
+  gas.initial = totals(gas, domain);
 }
 
 void begin(Gas& gas, Domain& domain) {
@@ -107,19 +125,92 @@ Totals totals(const Gas& gas, Domain& domain) {
     }
     sums.insert(sums.end(), sum.begin(), sum.end());
   }
-  // Ranks own the blocks in Morton order, so the sums of all follow each other as those of one rank would.
-  std::vector<Message> all{Message{}};
-  append(all[0], sums.data(), sums.size());
-  if (domain.size() > 1) all = all_gather(domain, all[0]);
-  std::vector<CompensatedSum> total(numbers);
-  for (const Message& message : all)
-    for (MessageReader reader(message); !reader.at_end();)
-      for (CompensatedSum& t : total) t.add(reader.read<double>());
+  const std::vector<double> total = sum_of_ranks(sums, numbers, domain);
   Totals result;
-  for (std::size_t r = 0; r < fluids; ++r) result.mass.push_back(total[r].value());
-  for (std::size_t a = 0; a < 3; ++a) result.momentum[a] = total[fluids + a].value();
-  result.energy = total[fluids + 3].value(), result.kinetic = total[fluids + 4].value();
+  result.mass.assign(total.begin(), total.begin() + static_cast<std::ptrdiff_t>(fluids));
+  for (std::size_t a = 0; a < 3; ++a) result.momentum[a] = total[fluids + a];
+  result.energy = total[fluids + 3], result.kinetic = total[fluids + 4];
   return result;
+}
+
+std::vector<Totals> passed(const Gas& gas, Domain& domain) {
+  const std::size_t fluids = gas.fluids.size(), numbers = fluids + 4;
+  std::vector<Totals> result;
+  for (int side = 0; side <= 2 * gas.dimensions(); ++side) {
+    std::vector<double> sums;
+    for (const Passage& p : gas.passages) {
+      if (p.side != side) continue;
+      for (const CompensatedSum& mass : p.mass) sums.push_back(mass.value());
+      for (const CompensatedSum& momentum : p.momentum) sums.push_back(momentum.value());
+      sums.push_back(p.energy.value());
+    }
+    const std::vector<double> total = sum_of_ranks(sums, numbers, domain);
+    Totals through;
+    through.mass.assign(total.begin(), total.begin() + static_cast<std::ptrdiff_t>(fluids));
+    for (std::size_t a = 0; a < 3; ++a) through.momentum[a] = total[fluids + a];
+    through.energy = total[fluids + 3];
+    result.push_back(through);
+  }
+  return result;
+}
+
+std::size_t Gas::bytes() const {
+  std::size_t sum = swept.capacity() * sizeof(Lanes);
+  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step}) sum += set->bytes();
+  return sum;
+}
+
+std::vector<double> numbers_of(const Gas& gas) {
+  std::vector<double> numbers{gas.time,
+                              static_cast<double>(gas.step),
+                              gas.wave_rate,
+                              gas.motion_rate,
+                              static_cast<double>(gas.flattened),
+                              static_cast<double>(gas.cells.mine.size()),
+                              static_cast<double>(gas.contents())};
+  // The pressures as well: to find them once more from the contents would change last digits.
+  for (const CellSet* set : {&gas.content, &gas.primitive})
+    for (const std::int32_t b : gas.cells.mine) {
+      const double* first = reinterpret_cast<const double*>(set->at(static_cast<std::size_t>(b), 0));
+      numbers.insert(numbers.end(), first, first + set->quantities() * set->packs() * 8);
+    }
+  for (const Passage& p : gas.passages) {
+    const auto keep = [&](const CompensatedSum& sum) {
+      const double* first = reinterpret_cast<const double*>(&sum);
+      numbers.insert(numbers.end(), first, first + sizeof(CompensatedSum) / sizeof(double));
+    };
+    for (const CompensatedSum& mass : p.mass) keep(mass);
+    for (const CompensatedSum& momentum : p.momentum) keep(momentum);
+    keep(p.energy);
+  }
+  return numbers;
+}
+
+void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
+  if (numbers.size() != numbers_of(gas).size() || numbers[5] != static_cast<double>(gas.cells.mine.size()) ||
+      numbers[6] != static_cast<double>(gas.contents()))
+    throw std::runtime_error("its gas is of another case");
+  const double* next = numbers.data();
+  gas.time = next[0], gas.step = static_cast<std::int64_t>(next[1]), gas.wave_rate = next[2], gas.motion_rate = next[3];
+  gas.flattened = static_cast<std::int64_t>(next[4]);
+  next += 7;
+  for (CellSet* set : {&gas.content, &gas.primitive})
+    for (const std::int32_t b : gas.cells.mine) {
+      const int count = set->quantities() * set->packs() * 8;
+      std::copy_n(next, count, reinterpret_cast<double*>(set->at(static_cast<std::size_t>(b), 0)));
+      next += count;
+    }
+  for (Passage& p : gas.passages) {
+    const auto take = [&](CompensatedSum& sum) {
+      static_assert(std::is_trivially_copyable_v<CompensatedSum>);
+      std::memcpy(static_cast<void*>(&sum), next, sizeof(CompensatedSum));
+      next += sizeof(CompensatedSum) / sizeof(double);
+    };
+    for (CompensatedSum& mass : p.mass) take(mass);
+    for (CompensatedSum& momentum : p.momentum) take(momentum);
+    take(p.energy);
+  }
+  share_primitives(gas, gas.time, domain);
 }
 
 }  // namespace brisance::simulator::gas

@@ -26,13 +26,6 @@ struct Filling {
 };
 using FillingFunction = std::function<Filling(const Vector& position, double time)>;
 
-enum class EdgeKind {
-  wall,            // reflects; also a plane of symmetry and the axis
-  inflow,          // the state beyond is given
-  pressure,        // the pressure beyond is given, the rest follows the gas inside
-  non_reflecting,  // waves leave into a given state at rest beyond
-  periodic         // the other side of the box
-};
 struct Edge {
   std::string name;
   EdgeKind kind = EdgeKind::wall;
@@ -83,11 +76,20 @@ struct Passage {
   } step;  // the same of the step that is under way
 };
 
+/// Mass of each fluid, momentum and energy of all cells, summed in Morton order. Per metre, radian or steradian as Metric says.
+struct Totals {
+  std::vector<double> mass;  // kg
+  Vector momentum{};         // kg m/s
+  double energy = 0.0;       // J
+  double kinetic = 0.0;      // J
+};
+
 struct Gas {
   Cells cells;
   std::vector<Fluid> fluids;
   std::vector<Edge> edges;  // low x, high x, low y, ...
   Vector gravity{};
+  double courant = 0.0;      // 0: what the geometry allows
   double least_mach = 1e-2;  // below, the dissipation of the faces falls no further with the Mach number
 
   CellSet content;                                      // at the start of the step
@@ -95,16 +97,18 @@ struct Gas {
   CellSet primitive, half_step;                         // scratch
   std::vector<Lanes> swept;                             // m^3 that pass the faces in a step: [block][axis][pencil][face]
   std::vector<Passage> passages;                        // in Morton order of the blocks
-  std::vector<std::array<std::int32_t, 6>> passage_of;  // of each block and side; -1: none
+  std::vector<std::array<std::int32_t, 7>> passage_of;  // of each block and side, and of gravity; -1: none
 
   double time = 0.0;  // s
   std::int64_t step = 0;
+  Totals initial;
   double wave_rate = 0.0;      // 1/s, largest sum over the axes of (|u| + c)/h
   double motion_rate = 0.0;    // 1/s, largest |u|/h of one axis
   std::int64_t flattened = 0;  // slopes that were taken back so that no cell loses more energy than it has
 
   bool empty() const { return fluids.empty(); }
   int dimensions() const { return cells.dimensions; }
+  std::size_t bytes() const;
   Lanes* swept_faces(std::size_t block, int axis, int pencil) {
     const std::size_t pencils = dimensions() == 3 ? 8 : 1;
     return swept.data() + ((block * static_cast<std::size_t>(dimensions()) + static_cast<std::size_t>(axis)) * pencils +
@@ -114,14 +118,6 @@ struct Gas {
   /// Quantities of a fluid's content.
   int fluid_quantities() const { return fluids.size() == 1 ? 1 : 3; }
   int contents() const { return Content::fluids(dimensions()) + static_cast<int>(fluids.size()) * fluid_quantities(); }
-};
-
-/// Mass of each fluid, momentum and energy of all cells, summed in Morton order. Per metre, radian or steradian as Metric says.
-struct Totals {
-  std::vector<double> mass;  // kg
-  Vector momentum{};         // kg m/s
-  double energy = 0.0;       // J
-  double kinetic = 0.0;      // J
 };
 
 /// Allocates the cells and fills them; makes the gas ready for its first step.
@@ -134,5 +130,12 @@ enum class Outcome { done, rejected };
 /// Advances by dt (s). A step that is rejected changes nothing.
 Outcome advance(Gas& gas, double dt, Domain& domain);
 Totals totals(const Gas& gas, Domain& domain);
+/// What has come through each side of the box since the start, and last by gravity: mass, impulse, energy (its kinetic part
+/// stays 0).
+std::vector<Totals> passed(const Gas& gas, Domain& domain);
+
+/// Everything that a checkpoint has to keep, and back. `restore` throws std::runtime_error if it is of another gas.
+std::vector<double> numbers_of(const Gas& gas);
+void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain);
 
 }  // namespace brisance::simulator::gas

@@ -65,8 +65,7 @@ void half_step_of(Gas& gas, std::size_t block, double dt) {
   const Cells& cells = gas.cells;
   const double h = cells.cell_size;
   Lanes divergence[Shape::packs];
-  const bool curved = cells.geometry != Geometry::plane && cells.geometry != Geometry::three_dimensional &&
-                      cells.geometry != Geometry::planar_1d;
+  const bool curved = is_round(cells.geometry);
   for (int axis = 0; axis < D; ++axis) {
     const double half_head = 0.5 * gas.gravity[static_cast<std::size_t>(axis)] * h;
     for (int n = 0; n < Shape::pencils; ++n) {
@@ -175,10 +174,16 @@ bool move(Gas& gas, std::size_t block, double dt) {
       if (g != 0.0) {
         momentum += (dt * g) * mass;
         weight += (0.5 * dt * g) * (before + momentum);
+        Passage& pull = gas.passages[static_cast<std::size_t>(gas.passage_of[block].back())];
+        for (int l = 0; l < 8; ++l)
+          if (inside >> l & 1) pull.step.momentum[static_cast<std::size_t>(a)] += dt * g * mass[l];
       }
       kinetic_before += before * before, kinetic += momentum * momentum;
     }
     at(gas.moved, Content::energy) += weight;
+    if (gas.gravity != Vector{})
+      for (int l = 0; l < 8; ++l)
+        if (inside >> l & 1) gas.passages[static_cast<std::size_t>(gas.passage_of[block].back())].step.energy += weight[l];
     const Lanes room = at(gas.content, Content::room), moved = at(gas.moved, Content::room);
     const Lanes internal_before = at(gas.content, Content::energy) - 0.5 * kinetic_before / mass;
     const Lanes internal = at(gas.moved, Content::energy) - 0.5 * kinetic / mass;

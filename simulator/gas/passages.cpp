@@ -8,7 +8,7 @@ void open_passages(Gas& gas) {
   const Cells& cells = gas.cells;
   const int D = gas.dimensions();
   gas.passages.clear();
-  gas.passage_of.assign(cells.blocks.size(), {-1, -1, -1, -1, -1, -1});
+  gas.passage_of.assign(cells.blocks.size(), {-1, -1, -1, -1, -1, -1, -1});
   for (const std::int32_t b : cells.mine) {
     const auto block = static_cast<std::size_t>(b);
     const std::array<int, 3> corner = cells.corner(block);
@@ -37,6 +37,12 @@ void open_passages(Gas& gas) {
       gas.passage_of[block][static_cast<std::size_t>(side)] = static_cast<std::int32_t>(gas.passages.size());
       gas.passages.push_back(passage);
     }
+    if (gas.gravity == Vector{}) continue;
+    Passage weight;
+    weight.block = b, weight.side = 2 * D;
+    weight.mass.resize(gas.fluids.size()), weight.step.mass.resize(gas.fluids.size());
+    gas.passage_of[block].back() = static_cast<std::int32_t>(gas.passages.size());
+    gas.passages.push_back(weight);
   }
 }
 

@@ -80,6 +80,7 @@ void write(const Path& path, const Simulation& s, const RunProgress& progress) {
   keep("progress", std::vector<double>{progress.wall_time, progress.row_time});
   keep("history_rows", std::vector<std::int64_t>{progress.history_rows});
   keep("snapshot_times", progress.snapshot_times);
+  if (!s.gas.empty()) keep("gas", gas::numbers_of(s.gas));
   file.group("bodies");
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     const Particles& ps = s.bodies[b].particles;
@@ -101,7 +102,7 @@ void write(const Path& path, const Simulation& s, const RunProgress& progress) {
 /// A checkpoint in memory, read and proved whole before any of it becomes the state.
 struct Content {
   std::int64_t step = 0;
-  std::vector<double> time, extremes, ledger;
+  std::vector<double> time, extremes, ledger, gas;
   RunProgress progress;
   struct OfBody {
     std::vector<std::uint64_t> id, second_field;
@@ -120,6 +121,7 @@ Content read(const Path& path, const Simulation& s) {
   content.progress.wall_time = progress.at(0), content.progress.row_time = progress.at(1);
   content.progress.history_rows = file.integers("history_rows").at(0);
   content.progress.snapshot_times = file.doubles("snapshot_times");
+  if (!s.gas.empty()) content.gas = file.doubles("gas");
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     const Particles& ps = s.bodies[b].particles;
     const std::string group = fmt::format("bodies/{}", b);
@@ -141,6 +143,7 @@ void become(Simulation& s, const Content& content) {
   s.ledger = ledger_from(content.ledger, s.boundaries.size());
   s.step = content.step, s.time = content.time.at(0), s.last_time_step = content.time.at(1);
   s.extremes = extremes_from(content.extremes);
+  if (!s.gas.empty()) gas::restore(s.gas, content.gas, *s.domain);
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     Particles& ps = s.bodies[b].particles;
     const Content::OfBody& body = content.bodies[b];
@@ -152,7 +155,7 @@ void become(Simulation& s, const Content& content) {
       for (int p = 0; p < ps.size; ++p)
         ps.set(columns[c].set).at(columns[c].index, p) = body.columns[c][static_cast<std::size_t>(p)];
   }
-  place_particles(s);
+  if (!s.bodies.empty()) place_particles(s);
 }
 
 /// The step of a checkpoint, or nothing if there is no readable one.

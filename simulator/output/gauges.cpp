@@ -70,7 +70,11 @@ void Gauges::for_each_particle(const Simulation& s, const GaugeConfig& config, F
 
 Gauges::Gauges(const Case& c, const Simulation& start) : dimensions_(start.dimensions()) {
   for (const GaugeConfig& config : c.gauges) {
-    Gauge gauge{config, {}, {}, {}};
+    Gauge gauge{config, {}, {}, {}, {}};
+    if (!start.gas.empty()) {
+      watch_gas(std::move(gauge), start);
+      continue;
+    }
     for (const std::string& name : config.fields) {
       const Field* field = find_field(name);
       if (!field) throw std::invalid_argument(fmt::format("gauge {}: there is no field \"{}\"", config.name, name));
@@ -105,6 +109,30 @@ Gauges::Gauges(const Case& c, const Simulation& start) : dimensions_(start.dimen
                               std::string(field->unit)});
     gauges_.push_back(std::move(gauge));
   }
+}
+
+void Gauges::watch_gas(Gauge gauge, const Simulation& start) {
+  const std::vector<gas::Field> known = gas::fields_of(start.gas);
+  for (const std::string& name : gauge.config.fields)
+    gauge.gas_fields.push_back(
+        *std::find_if(known.begin(), known.end(), [&](const gas::Field& field) { return field.name == name; }));
+  gauge.places = samples(gauge.config, start.grid.cell_size);
+  for (std::size_t i = 0; i < gauge.places.size(); ++i)
+    for (const gas::Field& field : gauge.gas_fields)
+      for (int a = 0; a < field.components; ++a)
+        columns_.push_back({fmt::format("gauge_{}_{}{}{}", gauge.config.name, field.name,
+                                        field.name == "velocity" ? std::string("_") + "xyz"[a] : "",
+                                        gauge.places.size() > 1 ? fmt::format("_{:02}", i) : ""),
+                            field.unit});
+  gauges_.push_back(std::move(gauge));
+}
+
+Gauges::Values Gauges::of_gas(const Gauge& gauge, const Simulation& s, const Vector& place) const {
+  const std::optional<gas::CellPlace> cell = gas::find_cell(s.gas, place);
+  Values values;
+  for (const gas::Field& field : gauge.gas_fields)
+    for (int a = 0; a < field.components; ++a) values.push_back(cell ? field.read(s.gas, *cell, a) : nan);
+  return values;
 }
 
 std::size_t Gauges::components(const Gauge& gauge) const {
@@ -193,7 +221,9 @@ std::vector<double> Gauges::read(const Simulation& s) const {
         break;
       default:
         for (std::size_t i = 0; i < gauge.places.size(); ++i)
-          add(gauge.config.moves ? of_particle(gauge, s, gauge.followed[i]) : around(gauge, s, gauge.places[i]));
+          add(!s.gas.empty()       ? of_gas(gauge, s, gauge.places[i])
+              : gauge.config.moves ? of_particle(gauge, s, gauge.followed[i])
+                                   : around(gauge, s, gauge.places[i]));
     }
   return row;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/config.hpp"
+#include "simulator/gas/fields.hpp"
 #include "simulator/output/fields.hpp"
 #include "simulator/simulation.hpp"
 
@@ -32,9 +33,12 @@ class Gauges {
   struct Gauge {
     GaugeConfig config;
     std::vector<const Field*> fields;
+    std::vector<gas::Field> gas_fields;
     std::vector<Vector> places;      // of a point or of the samples along a line
     std::vector<Followed> followed;  // one for each place, or all of a moving plane
   };
+  /// Adds a gauge of the gas, with its columns.
+  void watch_gas(Gauge gauge, const Simulation& start);
   /// Visits the particles a gauge may see: f(body number, particle number).
   template <class F>
   static void for_each_particle(const Simulation& s, const GaugeConfig& config, F&& f);
@@ -44,6 +48,7 @@ class Gauges {
   Values over_plane(const Gauge& gauge, const Simulation& s) const;
   Values at_surface(const Gauge& gauge, const Simulation& s) const;
   std::size_t components(const Gauge& gauge) const;
+  Values of_gas(const Gauge& gauge, const Simulation& s, const Vector& place) const;
   Values all_fields_of(const Gauge& gauge, const ParticleView& particle) const;
 
   int dimensions_;

@@ -21,14 +21,77 @@ namespace {
 
 constexpr std::string_view first_columns = "time [s],time_step [s]";
 
+/// The books of round geometries are per radian or steradian.
+double whole_of(Geometry geometry) {
+  switch (geometry) {
+    case Geometry::axisymmetric:
+    case Geometry::cylindrical_1d:
+      return 2.0 * std::numbers::pi;
+    case Geometry::spherical_1d:
+      return 4.0 * std::numbers::pi;
+    default:
+      return 1.0;
+  }
+}
+
+}  // namespace
+
+gas::Totals GasBooks::residual() const {
+  gas::Totals sum = state;
+  const auto take = [&](const gas::Totals& t) {
+    for (std::size_t r = 0; r < sum.mass.size(); ++r) sum.mass[r] -= t.mass[r];
+    sum.momentum = sum.momentum - t.momentum, sum.energy -= t.energy;
+  };
+  take(initial);
+  for (const auto& [name, through] : entries) take(through);
+  return sum;
+}
+
+namespace {
+
+GasBooks gas_books_of(const Simulation& s) {
+  const double whole = whole_of(s.geometry);
+  const auto scaled = [&](gas::Totals t) {
+    for (double& mass : t.mass) mass *= whole;
+    t.momentum = whole * t.momentum, t.energy *= whole, t.kinetic *= whole;
+    return t;
+  };
+  GasBooks books;
+  for (const gas::Fluid& fluid : s.gas.fluids) books.fluids.push_back(fluid.name);
+  books.state = scaled(gas::totals(s.gas, *s.domain)), books.initial = scaled(s.gas.initial);
+  const std::vector<gas::Totals> passed = gas::passed(s.gas, *s.domain);
+  for (std::size_t e = 0; e < passed.size(); ++e)
+    books.entries.emplace_back(e < s.gas.edges.size() ? s.gas.edges[e].name : "gravity", scaled(passed[e]));
+  return books;
+}
+
+/// The columns of the gas. Along a radius momentum is no sum that could be kept.
+std::vector<BookEntry> entries_of(const GasBooks& books, Geometry geometry) {
+  std::vector<BookEntry> entries;
+  const std::size_t first = is_round(geometry) ? 1 : 0, last = static_cast<std::size_t>(number_of_dimensions(geometry));
+  const auto add = [&](const std::string& name, const gas::Totals& t, std::string_view momentum) {
+    for (std::size_t r = 0; r < t.mass.size(); ++r)
+      entries.push_back({name + "_mass" + (t.mass.size() > 1 ? "_" + books.fluids[r] : ""), "kg", t.mass[r]});
+    for (std::size_t a = first; a < last; ++a)
+      entries.push_back({fmt::format("{}_{}_{}", name, momentum, "xyz"[a]), "kg m/s", t.momentum[a]});
+    entries.push_back({name + "_energy", "J", t.energy});
+  };
+  add("gas", books.state, "momentum");
+  entries.push_back({"gas_kinetic_energy", "J", books.state.kinetic});
+  for (const auto& [name, through] : books.entries)
+    if (name != "gravity" || through.energy != 0.0 || through.momentum != Vector{}) add(name, through, "impulse");
+  add("gas_residual", books.residual(), "momentum");
+  return entries;
+}
+
 }  // namespace
 
 Books books_of(const Simulation& s) {
   // The books of the axisymmetric geometry are per radian.
-  const double whole = s.geometry == Geometry::axisymmetric ? 2.0 * std::numbers::pi : 1.0;
+  const double whole = whole_of(s.geometry);
   const Ledger& ledger = s.ledger;
   Books books;
-  books.dimensions = s.dimensions();
+  books.geometry = s.geometry;
   books.initial_internal = whole * ledger.initial_internal, books.peak_kinetic = whole * ledger.peak_kinetic;
   books.outflow_mass = whole * ledger.outflow_mass;
   books.state = whole * ledger.state;
@@ -46,10 +109,12 @@ Books books_of(const Simulation& s) {
     books.bodies.push_back({body.name, whole * motion_of(s, body), whole * internal});
   }
   books.balance = whole * balance(ledger, all);
+  if (!s.gas.empty()) books.gas = gas_books_of(s);
   return books;
 }
 
 std::vector<BookEntry> entries_of(const Books& books) {
+  if (books.gas) return entries_of(*books.gas, books.geometry);
   const Balance& b = books.balance;
   std::vector<BookEntry> entries = {{"kinetic_energy", "J", b.kinetic},
                                     {"internal_energy", "J", b.internal.total},
@@ -72,7 +137,7 @@ std::vector<BookEntry> entries_of(const Books& books) {
                                     {"stress_timing_energy", "J", b.stress_timing},
                                     {"energy_residual", "J", b.residual},
                                     {"mass", "kg", b.internal.mass}};
-  const bool space = books.dimensions == 3;
+  const bool space = books.geometry == Geometry::three_dimensional;
   const auto add = [&](const std::string& name, const char* unit, const Vector& v, std::size_t first, std::size_t last) {
     for (std::size_t a = first; a <= last; ++a) entries.push_back({name + "_" + "xyz"[a], unit, v[a]});
   };

@@ -18,9 +18,19 @@ struct BodyBooks {
   InternalEnergy internal;
 };
 
+/// What the gas holds, and what has come in since the start: through each edge and by gravity.
+struct GasBooks {
+  std::vector<std::string> fluids;
+  gas::Totals state, initial;
+  std::vector<std::pair<std::string, gas::Totals>> entries;
+
+  /// What the gas holds now that it neither held at the start nor received.
+  gas::Totals residual() const;
+};
+
 /// The books as a user sees them: of the whole bodies, whatever the geometry.
 struct Books {
-  int dimensions = 3;
+  Geometry geometry = Geometry::three_dimensional;
   Balance balance;
   double initial_internal = 0.0, peak_kinetic = 0.0;  // J
   double outflow_mass = 0.0;                          // kg, that has left
@@ -29,6 +39,7 @@ struct Books {
   Change internal_force, external, boundary, transfer, filter, advection, outflow;
   std::vector<std::pair<std::string, Change>> boundaries;  // by name
   std::vector<BodyBooks> bodies;
+  std::optional<GasBooks> gas;
 };
 Books books_of(const Simulation& s);
 

@@ -9,6 +9,23 @@
 #include "simulator/output/json.hpp"
 
 namespace brisance::simulator {
+namespace {
+
+std::string in_words(const GasBooks& books) {
+  std::string text = fmt::format("  {:24} {:>14} {:>14}\n", "gas", "mass [kg]", "energy [J]");
+  const auto row = [&](const std::string& name, const gas::Totals& t) {
+    double mass = 0.0;
+    for (const double m : t.mass) mass += m;
+    text += fmt::format("  {:24} {:14.6g} {:14.6g}\n", name, mass, t.energy);
+  };
+  row("at the start", books.initial), row("now", books.state);
+  for (const auto& [name, through] : books.entries)
+    if (through.energy != 0.0) row("by " + name, through);
+  row("in no book", books.residual());
+  return text;
+}
+
+}  // namespace
 
 void write_summary(const Summary& s, const std::filesystem::path& path) {
   Json measures = Json::object(), comparison = Json::object(), energy = Json::object(), versions = Json::object();
@@ -17,21 +34,25 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
     if (m.measured) comparison.set(m.name, Json::object().set("measured", *m.measured).set("deviation", *m.deviation()));
   }
   for (const BookEntry& entry : entries_of(s.books)) energy.set(entry.name, entry.value);
-  energy.set("initial_internal_energy", s.books.initial_internal).set("peak_kinetic_energy", s.books.peak_kinetic);
-  energy.set("numerical_over_peak_kinetic",
-             s.books.peak_kinetic > 0.0 ? s.books.balance.numerical() / s.books.peak_kinetic : 0.0);
+  if (!s.books.gas)
+    energy.set("initial_internal_energy", s.books.initial_internal).set("peak_kinetic_energy", s.books.peak_kinetic);
+  if (!s.books.gas)
+    energy.set("numerical_over_peak_kinetic",
+               s.books.peak_kinetic > 0.0 ? s.books.balance.numerical() / s.books.peak_kinetic : 0.0);
   versions.set("brisance", BRISANCE_VERSION).set("compiler", __VERSION__).set("hdf5", hdf5_version());
   versions.set("instruction_set", BRISANCE_INSTRUCTION_SET);
   Json all = Json::object();
   all.set("title", s.title).set("ending", s.ending).set("message", s.message).set("time", s.time).set("steps", s.steps);
-  all.set("particles", s.particles).set("measures", measures).set("comparison", comparison).set("energy", energy);
-  all.set("wall_time", s.wall_time).set("particle_steps_per_second", s.particle_steps_per_second).set("threads", s.threads);
+  const std::string points = s.books.gas ? "cell" : "particle";
+  all.set(points + "s", s.particles).set("measures", measures).set("comparison", comparison).set("energy", energy);
+  all.set("wall_time", s.wall_time).set(points + "_steps_per_second", s.particle_steps_per_second).set("threads", s.threads);
   replace_file_by_text(path, all.set("versions", versions).text());
 }
 
 std::string in_words(const Summary& s) {
-  std::string text = fmt::format("{}: {}{}{}\n  time {:.6g} s, {} steps, {} particles, {:.2f} s on the clock\n", s.title,
-                                 s.ending, s.message.empty() ? "" : ": ", s.message, s.time, s.steps, s.particles, s.wall_time);
+  std::string text = fmt::format("{}: {}{}{}\n  time {:.6g} s, {} steps, {} {}, {:.2f} s on the clock\n", s.title, s.ending,
+                                 s.message.empty() ? "" : ": ", s.message, s.time, s.steps, s.particles,
+                                 s.books.gas ? "cells" : "particles", s.wall_time);
   if (!s.measures.empty())
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", "measure", "computed", "measured", "deviation");
   for (const MeasuredValue& m : s.measures) {
@@ -45,6 +66,7 @@ std::string in_words(const Summary& s) {
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", m.name, shown(m.value), m.measured ? shown(*m.measured) : "",
                         m.measured ? difference(m) : "");
   }
+  if (s.books.gas) return text + in_words(*s.books.gas);
   const Balance& b = s.books.balance;
   const double peak = s.books.peak_kinetic > 0.0 ? s.books.peak_kinetic : 1.0;
   text += fmt::format("  {:24} {:>14} {:>14}\n", "energy", "J", "of the peak");

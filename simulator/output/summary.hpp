@@ -12,9 +12,9 @@ namespace brisance::simulator {
 
 struct Summary {
   std::string title, ending, message;
-  double time = 0.0;  // s
-  std::int64_t steps = 0, particles = 0;
-  double wall_time = 0.0;  // s
+  double time = 0.0;                      // s
+  std::int64_t steps = 0, particles = 0;  // or cells, of gas
+  double wall_time = 0.0;                 // s
   double particle_steps_per_second = 0.0;
   int threads = 1;
   Books books;

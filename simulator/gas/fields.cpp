@@ -1,0 +1,80 @@
+#include "simulator/gas/fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/equation_of_state/thermodynamics.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+double content(const Gas& gas, const CellPlace& at, int quantity) {
+  return gas.content.cell(at.block, quantity, at.cell);
+}
+double of_fluid(const Gas& gas, const CellPlace& at, std::size_t fluid, int quantity) {
+  return content(gas, at, Content::fluids(gas.dimensions()) + static_cast<int>(fluid) * gas.fluid_quantities() + quantity);
+}
+double primitive(const Gas& gas, const CellPlace& at, int quantity) {
+  return gas.primitive.cell(at.block, quantity, at.cell);
+}
+
+double mass_of(const Gas& gas, const CellPlace& at) {
+  double mass = 0.0;
+  for (std::size_t r = 0; r < gas.fluids.size(); ++r) mass += of_fluid(gas, at, r, Content::mass);
+  return mass;
+}
+double internal_energy_of(const Gas& gas, const CellPlace& at) {
+  double square = 0.0;
+  for (int a = 0; a < gas.dimensions(); ++a) square += std::pow(content(gas, at, Content::momentum + a), 2);
+  return content(gas, at, Content::energy) - 0.5 * square / mass_of(gas, at);
+}
+
+/// Of the fluid that fills most of the cell: fluids share a pressure, not a temperature.
+double temperature_of(const Gas& gas, const CellPlace& at) {
+  std::size_t most = 0;
+  double volume = content(gas, at, Content::room), internal = internal_energy_of(gas, at);
+  if (gas.fluids.size() > 1) {
+    for (std::size_t r = 1; r < gas.fluids.size(); ++r)
+      if (of_fluid(gas, at, r, Content::volume) > of_fluid(gas, at, most, Content::volume)) most = r;
+    volume = of_fluid(gas, at, most, Content::volume), internal = of_fluid(gas, at, most, Content::internal);
+  }
+  const double mass = of_fluid(gas, at, most, Content::mass);
+  return equation_of_state::temperature(gas.fluids[most].equation_of_state, mass / volume, internal / mass);
+}
+
+}  // namespace
+
+std::vector<Field> fields_of(const Gas& gas) {
+  std::vector<Field> fields = {
+      {"density", "kg/m^3", "density", 1,
+       [](const Gas& g, const CellPlace& at, int) { return primitive(g, at, Primitive::density); }},
+      {"pressure", "Pa", "pressure", 1,
+       [](const Gas& g, const CellPlace& at, int) { return primitive(g, at, Primitive::pressure); }},
+      {"velocity", "m/s", "velocity", gas.dimensions(),
+       [](const Gas& g, const CellPlace& at, int a) { return primitive(g, at, Primitive::velocity + a); }},
+      {"temperature", "K", "temperature of the fluid that fills most", 1,
+       [](const Gas& g, const CellPlace& at, int) { return temperature_of(g, at); }},
+      {"energy", "J/kg", "specific internal energy", 1,
+       [](const Gas& g, const CellPlace& at, int) { return internal_energy_of(g, at) / mass_of(g, at); }},
+      {"sound_speed", "m/s", "speed of sound", 1,
+       [](const Gas& g, const CellPlace& at, int) { return primitive(g, at, Primitive::sound_speed); }}};
+  for (std::size_t r = 0; gas.fluids.size() > 1 && r < gas.fluids.size(); ++r)
+    fields.push_back(
+        {"fraction_" + gas.fluids[r].name, "1", "part of the volume", 1, [r](const Gas& g, const CellPlace& at, int) {
+           return of_fluid(g, at, r, Content::volume) / content(g, at, Content::room);
+         }});
+  return fields;
+}
+
+std::optional<CellPlace> find_cell(const Gas& gas, const Vector& position) {
+  const Cells& cells = gas.cells;
+  std::array<int, 3> index{};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(cells.dimensions); ++a) {
+    // A place on the upper edge of the box belongs to its last cell.
+    index[a] = std::min(static_cast<int>(std::floor(position[a] / cells.cell_size)), cells.upper[a] - 1);
+    if (position[a] > cells.upper[a] * cells.cell_size || index[a] < cells.lower[a]) return std::nullopt;
+  }
+  return cells.find(index);
+}
+
+}  // namespace brisance::simulator::gas
