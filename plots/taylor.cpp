@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <tuple>
 
 #include "models/programs/figure.hpp"
 #include "models/programs/files.hpp"
@@ -26,11 +28,17 @@ namespace {
 
 /// One run: a case of data/cases, perhaps changed.
 struct Entry {
-  std::string name, label, test;  // `test` groups what is drawn in one panel
+  std::string name, test, law;
+  std::string variation, study;  // what is varied and under which heading; empty: the standard set
   std::string file;
   std::vector<std::string> changes;
-  bool full;  // not in the standard set
+
+  bool full() const { return !study.empty(); }
+  std::string label() const { return law + (full() ? ", " + variation : ""); }
 };
+/// What the standard run is in each study.
+const std::map<std::string, std::string> standard = {
+    {"resolution", "R/h = 12"}, {"friction", "frictionless"}, {"dimensions", "axisymmetric"}};
 
 std::vector<Entry> entries() {
   struct Test {
@@ -53,25 +61,22 @@ std::vector<Entry> entries() {
   std::vector<Entry> all;
   for (const Test& t : tests) {
     const std::string stem = fmt::format("taylor_{}", t.stem), test = fmt::format("{}: {}", t.id, t.words);
-    all.push_back({stem + "_johnson_cook", "Johnson-Cook", test, stem + "_johnson_cook", {}, false});
-    if (t.threshold_stress) all.push_back({stem + "_mts", "threshold stress", test, stem + "_mts", {}, false});
+    all.push_back({stem + "_johnson_cook", test, "Johnson-Cook", "", "", stem + "_johnson_cook", {}});
+    if (t.threshold_stress) all.push_back({stem + "_mts", test, "threshold stress", "", "", stem + "_mts", {}});
   }
-  const auto vary = [&](const std::string& file, const std::string& label, const std::string& suffix, const std::string& test,
-                        std::vector<std::string> changes) {
-    all.push_back({file + suffix, label, test, file, std::move(changes), true});
-  };
   const std::string a1 = "A1: 4340 steel, 208 m/s", a3 = "A3: OFHC copper, 190 m/s";
   const std::pair<std::string, std::string> studied[] = {
       {"taylor_4340_208_johnson_cook", a1}, {"taylor_copper_190_johnson_cook", a3}, {"taylor_copper_190_mts", a3}};
   for (const auto& [file, test] : studied) {
     const std::string law = file.ends_with("mts") ? "threshold stress" : "Johnson-Cook";
-    vary(file, law + ", R/h = 6", "_r6", test, {"cell_size=0.635 mm"});
-    vary(file, law + ", R/h = 24", "_r24", test, {"cell_size=0.15875 mm"});
-    vary(file, law + ", friction 0.05", "_friction_05", test, {"boundary.0.friction=0.05"});
-    vary(file, law + ", friction 0.1", "_friction_10", test, {"boundary.0.friction=0.1"});
+    all.push_back({file + "_r6", test, law, "R/h = 6", "resolution", file, {"cell_size=0.635 mm"}});
+    all.push_back({file + "_r24", test, law, "R/h = 24", "resolution", file, {"cell_size=0.15875 mm"}});
+    all.push_back({file + "_friction_05", test, law, "friction 0.05", "friction", file, {"boundary.0.friction=0.05"}});
+    all.push_back({file + "_friction_10", test, law, "friction 0.1", "friction", file, {"boundary.0.friction=0.1"}});
   }
-  vary("taylor_4340_208_quarter", "Johnson-Cook, three dimensions", "", a1, {});
-  vary("taylor_copper_190_quarter_mts", "threshold stress, three dimensions", "", a3, {});
+  for (const auto& [file, test, law] : {std::tuple{"taylor_4340_208_quarter", a1, "Johnson-Cook"},
+                                        std::tuple{"taylor_copper_190_quarter_mts", a3, "threshold stress"}})
+    all.push_back({file, test, law, "three dimensions", "dimensions", file, {}});
   return all;
 }
 
@@ -106,7 +111,7 @@ std::string row(const Done& d) {
   const double all = d.summary.books.peak_kinetic;
   return fmt::format(
       "| {} | {} | {} | {} | {} | {:.1f} % | {} | {:.1f} | {:.2f} | {:+.2f} | {:+.2f} | {:+.2f} | {:.0e} | {} | {:.1f} |\n",
-      d.entry.test, d.entry.label, cell("final_length"), cell("mushroom_diameter"), cell("diameter_at_0.2"),
+      d.entry.test, d.entry.label(), cell("final_length"), cell("mushroom_diameter"), cell("diameter_at_0.2"),
       100.0 * mean_error(d.summary), profile ? fmt::format("{:.1f} %", 100.0 * profile->value) : "-",
       100.0 * b.internal.plastic_work / all, 100.0 * b.internal.viscous_work / all, 100.0 * b.transfer / all,
       100.0 * b.filter / all, 100.0 * b.stress_timing / all, b.residual / all, d.summary.particles, d.summary.wall_time);
@@ -209,32 +214,50 @@ std::string table(const std::vector<Check>& all) {
   return text;
 }
 
+Curve profile_curve(const std::string& title, const std::vector<double>& radius, const std::vector<double>& height, Mark mark,
+                    int colour) {
+  Curve curve{title, radius, height, mark, colour};
+  for (std::vector<double>* lengths : {&curve.x, &curve.y})
+    for (double& length : *lengths) length *= 1e3;
+  return curve;
+}
+
+/// A panel for each test with the standard runs, then one for each study of a test with a law: what is varied beside the
+/// standard.
 Figure figure(const std::vector<Done>& runs) {
   Figure figure{"Taylor impacts: computed and measured profiles", {}, 4, 380, 420};
-  std::vector<std::string> tests;
-  for (const Done& d : runs)
-    if (std::find(tests.begin(), tests.end(), d.entry.test) == tests.end()) tests.push_back(d.entry.test);
-  for (const std::string& test : tests) {
-    Panel panel;
-    panel.title = test, panel.x_label = "radius, mm", panel.y_label = "height, mm", panel.legend = "top right";
-    const auto millimetres = [](std::vector<double> x) {
-      for (double& v : x) v *= 1e3;
-      return x;
-    };
-    int colour = 0;
-    for (const Done& d : runs) {
-      if (d.entry.test != test || d.profiles.empty()) continue;
-      if (panel.curves.empty())
-        for (const MeasureConfig& m : d.config.measures)
-          if (!m.profile.empty()) {
-            const MeasuredProfile p = read_profile(m.profile);
-            panel.curves.push_back({"measured", millimetres(p.radius), millimetres(p.height), Mark::points, 7});
-          }
-      panel.curves.push_back(
-          {d.entry.label, millimetres(d.profiles[0].radius), millimetres(d.profiles[0].height), Mark::line, colour++});
+  std::vector<std::string> titles;
+  const auto add = [&](const Done& d, const std::string& title, const std::string& label) {
+    if (d.profiles.empty()) return;
+    const auto at = std::find(titles.begin(), titles.end(), title);
+    const auto number = static_cast<std::size_t>(at - titles.begin());
+    if (at == titles.end()) {
+      titles.push_back(title);
+      Panel& fresh = figure.panels.emplace_back();
+      fresh.title = title, fresh.x_label = "radius (mm)", fresh.y_label = "height (mm)", fresh.legend = "top right";
+      for (const MeasureConfig& m : d.config.measures)
+        if (!m.profile.empty()) {
+          const MeasuredProfile p = read_profile(m.profile);
+          fresh.curves.push_back(profile_curve("measured", p.radius, p.height, Mark::points, 7));
+        }
     }
-    figure.panels.push_back(std::move(panel));
-  }
+    Panel& panel = figure.panels[number];
+    const auto before = static_cast<int>(
+        std::count_if(panel.curves.begin(), panel.curves.end(), [](const Curve& c) { return c.title != "measured"; }));
+    panel.curves.push_back(profile_curve(label, d.profiles[0].radius, d.profiles[0].height, Mark::line, before));
+  };
+  for (const Done& d : runs)
+    if (!d.entry.full()) add(d, d.entry.test, d.entry.label());
+  for (const auto& [study, standard_label] : standard)
+    for (const Done& d : runs) {
+      if (d.entry.study != study) continue;
+      const std::string title = fmt::format("{}, {}: {}", d.entry.test.substr(0, d.entry.test.find(':')), d.entry.law, study);
+      if (std::find(titles.begin(), titles.end(), title) == titles.end())
+        for (const Done& base : runs)
+          if (!base.entry.full() && base.entry.test == d.entry.test && base.entry.law == d.entry.law)
+            add(base, title, standard_label);
+      add(d, title, d.entry.variation);
+    }
   return figure;
 }
 
@@ -252,7 +275,7 @@ int run_all(const std::vector<std::string>& names, bool full, const std::filesys
   std::vector<Done> runs;
   for (const Entry& e : entries()) {
     const bool named = std::find(names.begin(), names.end(), e.name) != names.end();
-    if (!(named || (names.empty() && (full || !e.full)))) continue;
+    if (!(named || (names.empty() && (full || !e.full())))) continue;
     const Case c = read_case(std::filesystem::path(BRISANCE_DATA) / "cases" / (e.file + ".toml"), e.changes);
     Simulation s = set_up(c);
     const std::filesystem::path directory = output / "runs" / e.name;
@@ -295,7 +318,7 @@ int main(int argc, char** argv) {
   try {
     if (list) {
       for (const auto& e : brisance::simulator::entries())
-        fmt::print("{:46} {}, {}{}\n", e.name, e.test, e.label, e.full ? "  (full)" : "");
+        fmt::print("{:46} {}, {}{}\n", e.name, e.test, e.label(), e.full() ? "  (full)" : "");
       return 0;
     }
     return brisance::simulator::run_all(names, full, output);

@@ -14,6 +14,7 @@
 #include "models/input/csv.hpp"
 #include "models/input/table_reader.hpp"
 #include "simulator/keys.hpp"
+#include "simulator/output/line_out.hpp"
 #include "simulator/solid/shapes.hpp"
 #include "simulator/table.hpp"
 
@@ -298,6 +299,14 @@ class CaseReader {
     if (taken) in.problem("name", "the name " + in_quotes(config.name) + " is given twice; give each its own");
   }
 
+  /// Names that become part of the names of files.
+  static void require_file_name(TableReader& in, const std::string& name) {
+    const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    });
+    if (!plain) in.problem("name", in_quotes(name) + ": it becomes part of file names; give letters, digits, _ and -");
+  }
+
   void require_component_in_geometry(TableReader& in, Axis axis) {
     if (static_cast<std::size_t>(axis) >= dimensions()) in.problem("axis", "there is no z in two dimensions; give x or y");
   }
@@ -321,10 +330,7 @@ class CaseReader {
 
   void check(TableReader& in, BodyConfig& body, const std::vector<BodyConfig>& others) {
     require_own_name(in, body, others);
-    const bool plain = std::all_of(body.name.begin(), body.name.end(), [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    });
-    if (!plain) in.problem("name", in_quotes(body.name) + ": it becomes part of file names; give letters, digits, _ and -");
+    require_file_name(in, body.name);
     check_extent(in, body);
     check_velocity(in, body.velocity);
     if (body.porosity && !body.material.material.porosity)
@@ -585,6 +591,26 @@ class CaseReader {
       } catch (const InputError& error) {
         in.add_problems(error.problems());
       }
+    }
+  }
+
+  void check(TableReader& in, FigureConfig& figure, const std::vector<FigureConfig>& others) {
+    require_own_name(in, figure, others);
+    require_file_name(in, figure.name);
+    if (!figure.body.empty()) require_body(in, figure.body);
+    const std::size_t before = in.problem_count();
+    const std::span drawable = std::span(gauge_fields).subspan(1);  // all but the position
+    for (const std::string& field : figure.fields)
+      if (std::find(drawable.begin(), drawable.end(), field) == drawable.end())
+        in.problem("fields", in_quotes(field) + " cannot be drawn; it must be one of " + listed(drawable) +
+                                 did_you_mean(field, drawable));
+    if (figure.fields.empty()) in.problem("fields", "there is nothing to draw; give one or more of " + listed(drawable));
+    if (figure.from == figure.to) in.problem("to", "it is where `from` is; a line has a length");
+    if (in.problem_count() > before || figure.reference.empty()) return;
+    try {
+      static_cast<void>(read_reference(figure));
+    } catch (const InputError& error) {
+      in.add_problems(error.problems());
     }
   }
 

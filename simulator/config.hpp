@@ -194,6 +194,19 @@ struct MeasureConfig {
   std::filesystem::path profile;   // CSV of an experiment's profile
 };
 
+/// A picture that is drawn at the end.
+enum class FigureKind {
+  line  // fields along a line
+};
+struct FigureConfig {
+  std::string name;
+  FigureKind kind = FigureKind::line;
+  std::string body;  // empty: any
+  std::vector<std::string> fields;
+  Vector from{}, to{};
+  std::filesystem::path reference;  // CSV, drawn beside what was computed
+};
+
 struct OutputConfig {
   double history_interval = 0.0;     // s; 0: 500 rows over the run
   double snapshot_interval = 0.0;    // s; 0: none but the last
@@ -202,6 +215,7 @@ struct OutputConfig {
   double checkpoint_wall = 600.0;    // s of wall time
   std::string figure_field = "plastic_strain";
   bool figures = true;
+  bool grid = false;  // snapshots of the nodes beside those of the particles
 };
 
 /// Limits on the books; a run that exceeds one stops with a report.
@@ -239,6 +253,7 @@ struct Case {
   std::optional<GasConfig> gas;
   std::vector<GaugeConfig> gauges;
   std::vector<MeasureConfig> measures;
+  std::vector<FigureConfig> figures;
   OutputConfig output;
   GateConfig gates;
 
@@ -279,6 +294,8 @@ inline constexpr std::array choices<simulator::BoxSide> = {std::string_view{"low
 template <>
 inline constexpr std::array choices<simulator::GaugeKind> = {std::string_view{"point"}, std::string_view{"line"},
                                                              std::string_view{"plane"}, std::string_view{"surface"}};
+template <>
+inline constexpr std::array choices<simulator::FigureKind> = {std::string_view{"line"}};
 template <>
 inline constexpr std::array choices<simulator::MeasureKind> = {
     std::string_view{"final_length"}, std::string_view{"mushroom_diameter"}, std::string_view{"diameter_at"},

@@ -195,7 +195,7 @@ inline constexpr auto keys<GasConfig> = std::tuple{
         required},
     Key{"edge", &GasConfig::edges, Unit::one, "a side of the box that is no wall"}};
 
-// Observation: [[gauge]], [[measure]], [output], [gates] -----------------------------------------------------------------
+// Observation: [[gauge]], [[measure]], [[figure]], [output], [gates] -----------------------------------------------------
 
 template <>
 inline constexpr auto keys<GaugeConfig> = std::tuple{
@@ -237,7 +237,23 @@ inline constexpr auto keys<OutputConfig> = std::tuple{
         between(0, 1'000'000'000)},
     Key{"checkpoint_wall", &OutputConfig::checkpoint_wall, Unit::s, "time on the clock between checkpoints", positive},
     Key{"figure_field", &OutputConfig::figure_field, Unit::one, "what the figures show in colours"},
-    Key{"figures", &OutputConfig::figures, Unit::one, "draw figures at the end"}};
+    Key{"figures", &OutputConfig::figures, Unit::one, "draw figures at the end"},
+    Key{"grid", &OutputConfig::grid, Unit::one,
+        "with each snapshot of the particles one of the grid: mass, velocity and force of its nodes, for ParaView"}};
+
+template <>
+inline constexpr auto keys<FigureConfig> =
+    std::tuple{Key{"name", &FigureConfig::name, Unit::one, "names the file: KIND_NAME.png", any_value, required},
+               Key{"kind", &FigureConfig::kind, Unit::one,
+                   "line: fields at the end along a line; of a vector its component along it", any_value, required},
+               Key{"fields", &FigureConfig::fields, Unit::one, "what is drawn, each in its own panel", any_value, required},
+               Key{"from", &FigureConfig::from, Unit::m, "first end of the line", any_value, required},
+               Key{"to", &FigureConfig::to, Unit::m, "last end of the line", any_value, required},
+               Key{"body", &FigureConfig::body, Unit::one, "the body it shows; any if not given"},
+               Key{"reference", &FigureConfig::reference, Unit::one,
+                   "drawn beside it: CSV beside this file, with a column x, y or z, for an oblique line distance (from its "
+                   "first end), and "
+                   "columns named as the fields"}};
 
 template <>
 inline constexpr auto keys<GateConfig> =
@@ -287,6 +303,7 @@ inline constexpr auto keys<Case> =
                Key{"gas", &Case::gas, Unit::one, "gas in a box of cells"},
                Key{"gauge", &Case::gauges, Unit::one, "a place that is watched over time"},
                Key{"measure", &Case::measures, Unit::one, "a number that an experiment gave as well"},
+               Key{"figure", &Case::figures, Unit::one, "a picture that is drawn at the end"},
                Key{"output", &Case::output, Unit::one, "what is written, and when"},
                Key{"gates", &Case::gates, Unit::one, "limits on what may go wrong"}};
 

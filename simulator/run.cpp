@@ -15,6 +15,7 @@
 #include "simulator/output/checkpoint.hpp"
 #include "simulator/output/figures.hpp"
 #include "simulator/output/gauges.hpp"
+#include "simulator/output/grid_snapshot.hpp"
 #include "simulator/output/run_directory.hpp"
 #include "simulator/output/snapshot.hpp"
 #include "simulator/solid/stress.hpp"
@@ -179,6 +180,7 @@ class Run {
   void add_snapshot() {
     snapshot_times_.push_back(s_.time);
     write_snapshot(options_.directory, s_, snapshot_times_);
+    if (case_.output.grid) write_grid_snapshot(options_.directory, solid_grid, solid_image(s_), snapshot_times_);
   }
 
   bool checkpoint_is_due(double before) const {
@@ -281,7 +283,7 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   omp_get_max_threads(),
                   books_of(s),
                   measures.read(s)};
-  for (auto& found : {damaged_snapshots(directory, s, restored.progress.snapshot_times.size()), draw_figures(c, s, directory)})
+  for (auto& found : {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory)})
     troubles.insert(troubles.end(), found.begin(), found.end());
   summary.message = fmt::format("{}", fmt::join(troubles, "\n"));
   return summary;

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
+#include <type_traits>
 
 #include "models/programs/files.hpp"
 
@@ -39,20 +41,30 @@ std::string plain(const std::string& text) {
 
 std::string style_of(const Curve& curve) {
   const std::string_view colour = palette[static_cast<std::size_t>(curve.colour) % palette.size()];
-  if (!curve.values.empty()) return fmt::format("with points pt 7 ps {} lc palette", curve.size);
+  if (!curve.half_widths.empty()) return "using 1:2:4:5:3 with boxxyerror fs solid noborder lc palette";
+  if (!curve.values.empty()) return fmt::format("using 1:2:3 with points pt 7 ps {} lc palette", curve.size);
   switch (curve.mark) {
     case Mark::line:
-      return fmt::format("with lines lw 2 lc rgb '{}'", colour);
+      return fmt::format("using 1:2 with lines lw 2 lc rgb '{}'", colour);
     case Mark::dashed:
-      return fmt::format("with lines lw 2 dt (7,4) lc rgb '{}'", colour);
+      return fmt::format("using 1:2 with lines lw 2 dt (7,4) lc rgb '{}'", colour);
     case Mark::points:
-      return fmt::format("with points pt 6 ps {} lw 1.2 lc rgb '{}'", curve.size, colour);
+      return fmt::format("using 1:2 with points pt 6 ps {} lw 1.2 lc rgb '{}'", curve.size, colour);
     case Mark::squares:
-      return fmt::format("with points pt 4 ps {} lw 1.2 lc rgb '{}'", curve.size, colour);
+      return fmt::format("using 1:2 with points pt 4 ps {} lw 1.2 lc rgb '{}'", curve.size, colour);
     case Mark::dots:
-      return fmt::format("with points pt 7 ps {} lc rgb '{}'", curve.size, colour);
+      return fmt::format("using 1:2 with points pt 7 ps {} lc rgb '{}'", curve.size, colour);
   }
   return {};
+}
+
+/// The range of the colours: gnuplot complains about one without extent, and chooses it around zero.
+std::string value_range(const Panel& panel) {
+  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+  for (const Curve& curve : panel.curves)
+    for (const double value : curve.values) lower = std::min(lower, value), upper = std::max(upper, value);
+  if (lower != upper) return "*:*";
+  return lower == 0.0 ? "0:1" : fmt::format("{}:{}", lower - 0.1 * std::abs(lower), lower + 0.1 * std::abs(lower));
 }
 
 void draw_panel(Gnuplot& plot, const Panel& panel) {
@@ -71,16 +83,19 @@ void draw_panel(Gnuplot& plot, const Panel& panel) {
     plot << "set bmargin\nset xtics norotate autofreq font ',10'\n";
   }
   plot << (panel.equal_axes ? "set size ratio -1\n" : "set size noratio\n");
+  plot << "set cbrange [" << value_range(panel) << "]\n";
   if (!panel.scale_label.empty())
     plot << "set cblabel " << plain(panel.scale_label)
          << "\nset palette defined (0 '#440154', 1 '#414487', 2 '#2a788e', 3 '#22a884', 4 '#7ad151', 5 '#fde725')\n";
   const bool legend = std::any_of(panel.curves.begin(), panel.curves.end(), [](const Curve& c) { return !c.title.empty(); });
+  plot << (panel.legend_width > 0 ? fmt::format("set lmargin 10\nset rmargin {}\n", panel.legend_width)
+                                  : "set lmargin\nset rmargin\n");
   plot << (legend ? "set key default " + panel.legend + " samplen 2.2 spacing 1.1 font ',10'\n" : "unset key\n");
   plot << "plot ";
   bool first = true;
   for (const Curve& curve : panel.curves) {
     if (curve.x.empty()) continue;
-    plot << (first ? "" : ", ") << (curve.values.empty() ? "'-' using 1:2 " : "'-' using 1:2:3 ") << style_of(curve)
+    plot << (first ? "" : ", ") << "'-' " << style_of(curve)
          << (curve.title.empty() ? std::string(" notitle") : " title " + plain(curve.title));
     first = false;
   }
@@ -88,15 +103,17 @@ void draw_panel(Gnuplot& plot, const Panel& panel) {
   plot << "\n";
   for (const Curve& curve : panel.curves) {
     if (curve.x.empty()) continue;
-    if (!curve.values.empty()) {
-      std::vector<std::tuple<double, double, double>> points;
-      for (std::size_t i = 0; i < curve.x.size(); ++i) points.emplace_back(curve.x[i], curve.y[i], curve.values[i]);
+    const auto rows = [&](const auto&... columns) {
+      std::vector<std::tuple<std::remove_cvref_t<decltype(columns[0])>...>> points;
+      for (std::size_t i = 0; i < curve.x.size(); ++i) points.emplace_back(columns[i]...);
       plot.send1d(points);
-      continue;
-    }
-    std::vector<std::pair<double, double>> points;
-    for (std::size_t i = 0; i < curve.x.size(); ++i) points.emplace_back(curve.x[i], curve.y[i]);
-    plot.send1d(points);
+    };
+    if (!curve.half_widths.empty())
+      rows(curve.x, curve.y, curve.values, curve.half_widths, curve.half_heights);
+    else if (!curve.values.empty())
+      rows(curve.x, curve.y, curve.values);
+    else
+      rows(curve.x, curve.y);
   }
 }
 

@@ -19,9 +19,10 @@ struct Curve {
   std::string title;  // empty: not in the legend
   std::vector<double> x, y;
   Mark mark = Mark::line;
-  int colour = 0;                // index into the palette
-  std::vector<double> values{};  // of points: shown by colours on a scale instead
-  double size = 0.7;             // of points
+  int colour = 0;                                     // index into the palette
+  std::vector<double> values{};                       // of points: shown by colours on a scale instead
+  double size = 0.7;                                  // of points
+  std::vector<double> half_widths{}, half_heights{};  // of tiles with values instead of points, in units of the axes
 };
 
 struct Panel {
@@ -29,11 +30,12 @@ struct Panel {
   std::vector<Curve> curves{};
   std::optional<std::array<double, 2>> x_range{}, y_range{};
   bool logarithmic_x = false, logarithmic_y = false;
-  bool equal_axes = false;             // one unit is as long along x as along y
-  std::string scale_label{};           // of the colours of values
-  bool wide = false;                   // takes a row of its own
-  double height = 1.0;                 // of its row, in units of Figure::panel_height
-  std::string legend = "top left";     // gnuplot's words for its place
+  bool equal_axes = false;          // one unit is as long along x as along y
+  std::string scale_label{};        // of the colours of values
+  bool wide = false;                // takes a row of its own
+  double height = 1.0;              // of its row, in units of Figure::panel_height
+  std::string legend = "top left";  // gnuplot's words for its place
+  int legend_width = 0;  // characters kept free on the right, so that panels above each other are as wide; 0: as it needs
   std::vector<std::string> x_names{};  // stand upright under x = 0, 1, 2, ...
 };
 

@@ -5,48 +5,110 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "models/input/csv.hpp"
 #include "models/programs/figure.hpp"
 #include "simulator/output/fields.hpp"
+#include "simulator/output/line_out.hpp"
 #include "simulator/output/measures.hpp"
 
 namespace brisance::simulator {
 namespace {
 
 using Path = std::filesystem::path;
-constexpr double mm = 1e3;  // per m
+
+/// A unit in which numbers are neither very large nor very small.
+struct Scale {
+  double per_si = 1.0;
+  std::string unit;  // "" of a number without one
+};
+Scale scale_for(std::string_view unit, double largest) {
+  constexpr std::array prefixed = {"s", "m", "J", "Pa"};
+  if (unit == "1") return {};
+  Scale scale{1.0, std::string(unit)};
+  if (std::find(prefixed.begin(), prefixed.end(), unit) == prefixed.end() || !(largest > 0.0)) return scale;
+  constexpr std::array prefixes = {"n", "µ", "m", "", "k", "M", "G"};
+  const int thousands = std::clamp(static_cast<int>(std::floor(std::log10(largest) / 3.0)), -3, 3);
+  return {std::pow(1e-3, thousands), prefixes[static_cast<std::size_t>(thousands + 3)] + scale.unit};
+}
+double largest(const std::vector<double>& values) {
+  double most = 0.0;
+  for (const double v : values) most = std::max(most, std::abs(v));
+  return most;
+}
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& v : values) v *= factor;
+  return values;
+}
+std::string label(std::string_view what, const Scale& scale) {
+  return std::string(what) + (scale.unit.empty() ? "" : " (" + scale.unit + ")");
+}
+/// "80 µs"
+std::string in_words(double x, std::string_view unit, int digits = 4) {
+  constexpr double least = 1e-9;  // without a prefix
+  const Scale scale = std::abs(x) < least ? Scale{1.0, std::string(unit)} : scale_for(unit, std::abs(x));
+  return fmt::format("{:.{}g} {}", x * scale.per_si, digits, scale.unit);
+}
+std::string in_words(const Field& field) {
+  std::string name(field.name);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+void legend_beside(Panel& panel) {
+  panel.legend = "outside right top vertical Left reverse";
+  panel.legend_width = 27;
+}
 
 bool is_mirrored(const Simulation& s, int axis) {
   return std::any_of(s.boundaries.begin(), s.boundaries.end(),
                      [&](const Boundary& b) { return b.kind == BoundaryKind::symmetry && b.axis == axis && b.node == 0; });
 }
 
-void draw_energy(const Case& c, const Simulation&, const Path& directory) {
-  const CsvFile history = CsvFile::load(directory / "history.csv");
-  std::vector<double> time = history.numbers("time", Unit::s);
-  const bool micro = !time.empty() && time.back() < 1e-3;
-  for (double& t : time) t *= micro ? 1e6 : 1e3;
-  const auto curve = [&](const std::string& column, const std::string& title, int colour, Mark mark = Mark::line,
-                         double sign = 1.0) {
-    std::vector<double> y = history.numbers(column, Unit::J);
-    for (double& value : y) value *= sign;
-    return Curve{title, time, std::move(y), mark, colour};
-  };
-  Panel large, numerical;
-  large.title = "Energy", numerical.title = "Numerical books";
-  for (Panel* panel : {&large, &numerical}) {
-    panel->x_label = micro ? "time (µs)" : "time (ms)";
-    panel->y_label = "energy (J)";
-    panel->legend = "outside right top vertical";
-    panel->wide = true;
+/// Curves against time. Those that would lie on the axis are not drawn; the title tells their largest values, unless they are
+/// zero all the time.
+Panel against_time(const std::string& title, const std::vector<double>& time, std::vector<Curve> curves) {
+  const Scale times = scale_for("s", largest(time));
+  double most = 0.0;
+  for (const Curve& curve : curves) most = std::max(most, largest(curve.y));
+  const Scale energies = scale_for("J", most);
+  Panel panel;
+  std::string small;
+  constexpr double visible = 0.005;  // a pixel or two
+  for (Curve& curve : curves) {
+    const double peak = largest(curve.y);
+    if (peak < visible * most || peak == 0.0) {
+      if (peak > 0.0)
+        small += fmt::format("{}{} {}", small.empty() ? "; not drawn: " : ", ", curve.title, in_words(peak, "J", 2));
+      continue;
+    }
+    curve.x = scaled(time, times.per_si), curve.y = scaled(std::move(curve.y), energies.per_si);
+    panel.curves.push_back(std::move(curve));
   }
-  large.curves = {curve("kinetic_energy", "kinetic", 0),           curve("internal_energy_change", "internal, change", 1),
-                  curve("plastic_work", "plastic work", 2),        curve("external_work", "work of loads", 3),
-                  curve("boundary_work", "work of boundaries", 4), curve("viscous_work", "artificial viscosity", 5)};
-  numerical.curves = {curve("transfer_energy", "transfer", 0), curve("filter_energy", "filter", 1),
-                      curve("stress_timing_energy", "stress timing", 2), curve("energy_residual", "in no book", 6)};
-  draw({c.title, {large, numerical}, 1, 900, 380}, directory / "energy.png");
+  panel.title = title + small;
+  panel.x_label = label("time", times), panel.y_label = label("energy", energies);
+  legend_beside(panel);
+  return panel;
+}
+
+void draw_energy(const Case& c, const Path& directory) {
+  const CsvFile history = CsvFile::load(directory / "history.csv");
+  const auto curve = [&](const std::string& column, const std::string& title, int colour, Mark mark = Mark::line) {
+    return Curve{title, {}, history.numbers(column, Unit::J), mark, colour};
+  };
+  const std::vector<double> time = history.numbers("time", Unit::s);
+  // The internal energy often equals what it is made of: it is dashed, so that both are seen.
+  Panel physical = against_time("Energy", time,
+                                {curve("kinetic_energy", "kinetic", 0), curve("plastic_work", "plastic work", 2),
+                                 curve("external_work", "work of loads", 3), curve("boundary_work", "work of boundaries", 4),
+                                 curve("viscous_work", "artificial viscosity", 5), curve("outflow_energy", "outflow", 7),
+                                 curve("internal_energy_change", "internal, change", 1, Mark::dashed)});
+  Panel numerical =
+      against_time("Numerical books", time,
+                   {curve("transfer_energy", "transfer", 0), curve("filter_energy", "filter", 1),
+                    curve("stress_timing_energy", "stress timing", 2), curve("energy_residual", "in no book", 6)});
+  draw({c.title, {std::move(physical), std::move(numerical)}, 1, 900, 380}, directory / "energy.png");
 }
 
 /// Half a particle in units of gnuplot's point size, on a panel so many pixels wide that shows so many metres.
@@ -65,58 +127,97 @@ struct Window {
   double height() const { return upper[1] - lower[1]; }
 };
 
-/// A panel that shows the window with equal axes on a figure of a sensible shape.
-void fit(Figure& figure, const Window& w, double margin) {
+/// A panel that shows the window on a figure of a sensible shape: with equal axes, unless one direction would be too thin to
+/// see. Returns how many units of the axes make a metre.
+Scale fit(Figure& figure, const Window& w, double margin) {
   Panel& panel = figure.panels.front();
-  panel.equal_axes = true;
-  panel.x_range = {{mm * (w.lower[0] - margin), mm * (w.upper[0] + margin)}};
-  panel.y_range = {{mm * (w.lower[1] - margin), mm * (w.upper[1] + margin)}};
-  constexpr double largest = 820.0, smallest = 320.0;
-  const double scale = largest / std::max(w.width() + 2.0 * margin, w.height() + 2.0 * margin);
-  const auto pixels = [&](double size) { return static_cast<int>(std::max(smallest, scale * (size + 2.0 * margin))); };
-  figure.panel_width = pixels(w.width()) + 190;  // scale and labels
-  figure.panel_height = pixels(w.height()) + 90;
+  const double width = w.width() + 2.0 * margin, height = w.height() + 2.0 * margin;
+  constexpr double largest_side = 820.0, smallest_side = 240.0, thinnest = 0.2;
+  panel.equal_axes = std::min(width, height) > thinnest * std::max(width, height);
+  const Scale scale =
+      scale_for("m", std::max({std::abs(w.lower[0]), std::abs(w.upper[0]), std::abs(w.lower[1]), std::abs(w.upper[1])}));
+  panel.x_range = {{scale.per_si * (w.lower[0] - margin), scale.per_si * (w.upper[0] + margin)}};
+  panel.y_range = {{scale.per_si * (w.lower[1] - margin), scale.per_si * (w.upper[1] + margin)}};
+  const double pixels_per_metre = largest_side / std::max(width, height);
+  const auto pixels = [&](double size) { return static_cast<int>(std::max(smallest_side, pixels_per_metre * size)); };
+  figure.panel_width = pixels(width) + 190;  // colours and labels
+  figure.panel_height = pixels(height) + 90;
+  panel.x_label = label(panel.x_label, scale), panel.y_label = label(panel.y_label, scale);
+  return scale;
 }
 
 void draw_field(const Case& c, const Simulation& s, const Path& directory) {
   const Field* field = find_field(c.output.figure_field);
   if (!field) throw std::runtime_error(fmt::format("output.figure_field: there is no field \"{}\"", c.output.figure_field));
   const double h = s.grid.cell_size;
-  const bool mirror = s.dimensions() == 3 ? is_mirrored(s, 0) : s.geometry == Geometry::axisymmetric || is_mirrored(s, 0);
+  const bool axisymmetric = s.geometry == Geometry::axisymmetric;
   Curve points;
-  points.mark = Mark::dots;
-  Window window;
-  double particle = 0.0;
+  double nearest = std::numeric_limits<double>::infinity();
   for (const Body& body : s.bodies)
     for (int p = 0; p < body.particles.size; ++p) {
       const ParticleView view(body.particles, p);
       const Vector x = view.position();
       if (s.dimensions() == 3 && std::abs(x[2]) > h) continue;
-      double components[3] = {};
-      field->read(view, components);
-      const double value =
-          field->components == 1
-              ? components[0]
-              : std::sqrt(dot({components[0], components[1], components[2]}, {components[0], components[1], components[2]}));
-      for (const double side : {1.0, -1.0}) {
-        if (side < 0.0 && !mirror) continue;
-        points.x.push_back(mm * side * x[0]), points.y.push_back(mm * x[1]), points.values.push_back(value);
-        window.add(side * x[0], x[1]);
-      }
-      particle = std::max(particle, 2.0 * view.half_width());
+      points.x.push_back(x[0]), points.y.push_back(x[1]), points.values.push_back(field->scalar(view));
+      const Tensor<double> F = view.deformation_gradient();
+      points.half_widths.push_back(view.half_width() * std::hypot(F.xx, F.xy));
+      points.half_heights.push_back(view.half_width() * std::hypot(F.yx, F.yy));
+      nearest = std::min(nearest, std::abs(x[0]));
     }
   if (points.x.empty()) throw std::runtime_error("no particle is in the picture");
+  // The other half, unless there is a hole between the two.
+  if ((axisymmetric || is_mirrored(s, 0)) && nearest < h)
+    for (std::size_t i = 0, count = points.x.size(); i < count; ++i) {
+      points.x.push_back(-points.x[i]);
+      for (std::vector<double>* same : {&points.y, &points.values, &points.half_widths, &points.half_heights})
+        same->push_back((*same)[i]);
+    }
+  Window window;
+  for (std::size_t i = 0; i < points.x.size(); ++i)
+    for (const double side : {1.0, -1.0})
+      window.add(points.x[i] + side * points.half_widths[i], points.y[i] + side * points.half_heights[i]);
   Figure figure;
-  figure.title = fmt::format("{}: {} at {:.4g} µs", c.title, std::string(field->meaning), 1e6 * s.time);
+  figure.title = fmt::format("{}: {} at {}", c.title, in_words(*field), in_words(s.time, "s"));
   Panel panel;
-  const bool axisymmetric = s.geometry == Geometry::axisymmetric;
-  panel.x_label = axisymmetric ? "r (mm)" : "x (mm)", panel.y_label = axisymmetric ? "z (mm)" : "y (mm)";
-  panel.scale_label = std::string(field->meaning) + (field->unit == "1" ? "" : " (" + std::string(field->unit) + ")");
+  panel.x_label = axisymmetric ? "r" : "x", panel.y_label = axisymmetric ? "z" : "y";
+  const Scale values = scale_for(field->unit, largest(points.values));
+  panel.scale_label = label(in_words(*field), values);
   figure.panels.push_back(panel);
-  fit(figure, window, 2.0 * h);
-  points.size = point_size(particle, figure.panel_width - 190, window.width() + 4.0 * h);
+  const Scale lengths = fit(figure, window, 0.5 * h);
+  // Tiles reach a pixel beyond their edges, so that no light shines through between them.
+  for (double& half : points.half_widths) half += (window.width() + h) / (figure.panel_width - 190);
+  for (double& half : points.half_heights) half += (window.height() + h) / (figure.panel_height - 90);
+  for (std::vector<double>* length : {&points.x, &points.y, &points.half_widths, &points.half_heights})
+    *length = scaled(std::move(*length), lengths.per_si);
+  points.values = scaled(std::move(points.values), values.per_si);
   figure.panels.front().curves.push_back(std::move(points));
   draw(figure, directory / "field.png");
+}
+
+/// The fields of a figure along its line, one below the other.
+void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, const Path& directory) {
+  const LineOut computed = line_out(s, config);
+  if (computed.place.empty()) throw std::runtime_error(fmt::format("figure {}: no particle is near its line", config.name));
+  const LineOut reference = config.reference.empty() ? LineOut{} : read_reference(config);
+  const Scale lengths = scale_for("m", std::max(largest(computed.place), largest(reference.place)));
+  Figure figure{fmt::format("{}: {} at {}", c.title, config.name, in_words(s.time, "s")), {}, 1, 900, 280};
+  for (std::size_t f = 0; f < config.fields.size(); ++f) {
+    const Field* field = find_field(config.fields[f]);
+    const Scale scale = scale_for(field->unit, largest(computed.values[f]));
+    const auto curve = [&](const std::string& title, const LineOut& from, Mark mark, int colour) {
+      return Curve{title, scaled(from.place, lengths.per_si), scaled(from.values[f], scale.per_si), mark, colour};
+    };
+    Panel panel;
+    panel.x_label = label(computed.coordinate, lengths);
+    panel.y_label = label(in_words(*field) + (field->components > 1 ? " along " + computed.coordinate : ""), scale);
+    legend_beside(panel);
+    panel.curves.push_back(curve("computed", computed, Mark::dots, 0));
+    panel.curves.back().size = 0.3;
+    if (f < reference.values.size() && !reference.values[f].empty())
+      panel.curves.push_back(curve("reference", reference, Mark::dashed, 1));
+    figure.panels.push_back(std::move(panel));
+  }
+  draw(figure, directory / fmt::format("line_{}.png", config.name));
 }
 
 /// The outline of a body about its axis, whole, with what experiments say.
@@ -124,20 +225,21 @@ void draw_profile(const Case& c, const Simulation& s, const MeasureConfig& measu
   const Body& body = s.bodies[body_of(measure, s)];
   const auto axis = static_cast<std::size_t>(measure.axis);
   const Profile profile = profile_of(s, body, measure.axis);
+  if (profile.height.empty()) throw std::runtime_error(body.name + " has no particles left");
   Curve outline{"computed", {}, {}, Mark::line, 0};
   Curve strained{"plastic strain above 0.5", {}, {}, Mark::dots, 4}, measured{"measured", {}, {}, Mark::squares, 1};
   measured.size = 1.2;
   Window window;
-  const auto go_to = [&](double radius, double height) {
-    outline.x.push_back(mm * radius), outline.y.push_back(mm * height);
+  const auto add = [&](Curve& curve, double radius, double height) {
+    curve.x.push_back(radius), curve.y.push_back(height);
     window.add(radius, height);
   };
-  if (profile.height.empty()) throw std::runtime_error(body.name + " has no particles left");
-  go_to(profile.radius.front(), 0.0);
-  for (std::size_t i = 0; i < profile.height.size(); ++i) go_to(profile.radius[i], profile.height[i]);
-  go_to(profile.radius.back(), profile.length), go_to(-profile.radius.back(), profile.length);
-  for (std::size_t i = profile.height.size(); i-- > 0;) go_to(-profile.radius[i], profile.height[i]);
-  go_to(-profile.radius.front(), 0.0), go_to(profile.radius.front(), 0.0);
+  const std::size_t last = profile.height.size() - 1;
+  add(outline, profile.radius[0], 0.0);
+  for (std::size_t i = 0; i <= last; ++i) add(outline, profile.radius[i], profile.height[i]);
+  add(outline, profile.radius[last], profile.length), add(outline, -profile.radius[last], profile.length);
+  for (std::size_t i = last + 1; i-- > 0;) add(outline, -profile.radius[i], profile.height[i]);
+  add(outline, -profile.radius[0], 0.0), add(outline, profile.radius[0], 0.0);
   double particle = 0.0;
   constexpr double strongly_strained = 0.5;
   for (int p = 0; p < body.particles.size; ++p) {
@@ -146,28 +248,29 @@ void draw_profile(const Case& c, const Simulation& s, const MeasureConfig& measu
     Vector from_axis = view.position();
     from_axis[axis] = 0.0;
     const double r = std::sqrt(dot(from_axis, from_axis)), z = view.position()[axis] - profile.lower;
-    for (const double side : {1.0, -1.0}) strained.x.push_back(mm * side * r), strained.y.push_back(mm * z);
+    for (const double side : {1.0, -1.0}) strained.x.push_back(side * r), strained.y.push_back(z);
     particle = std::max(particle, 2.0 * view.half_width());
   }
   for (const MeasureConfig& m : c.measures) {
     if (m.profile.empty() || body_of(m, s) != body_of(measure, s)) continue;
     const MeasuredProfile points = read_profile(m.profile);
     for (std::size_t i = 0; i < points.height.size(); ++i)
-      for (const double side : {1.0, -1.0}) {
-        measured.x.push_back(mm * side * points.radius[i]), measured.y.push_back(mm * points.height[i]);
-        window.add(side * points.radius[i], points.height[i]);
-      }
+      for (const double side : {1.0, -1.0}) add(measured, side * points.radius[i], points.height[i]);
   }
   Figure figure;
-  figure.title = fmt::format("{}: {} at {:.4g} µs", c.title, body.name, 1e6 * s.time);
+  figure.title = fmt::format("{}: {} at {}", c.title, body.name, in_words(s.time, "s"));
   Panel panel;
-  panel.x_label = "radius (mm)", panel.y_label = "height above the impact face (mm)";
-  panel.legend = "outside right top vertical";
+  panel.x_label = "radius", panel.y_label = "height above the impact face";
+  legend_beside(panel);
   figure.panels.push_back(panel);
-  fit(figure, window, 2.0 * s.grid.cell_size);
-  figure.panel_width += 100;  // legend
-  strained.size = 0.7 * point_size(particle, figure.panel_width - 290, window.width() + 4.0 * s.grid.cell_size);
-  figure.panels.front().curves = {strained, outline, measured};
+  const double margin = 2.0 * s.grid.cell_size;
+  const Scale lengths = fit(figure, window, margin);
+  strained.size = 0.7 * point_size(particle, figure.panel_width - 190, window.width() + 2.0 * margin);
+  figure.panel_width += 100;  // the legend is wider than colours
+  for (Curve* curve : {&outline, &measured, &strained}) {
+    curve->x = scaled(std::move(curve->x), lengths.per_si), curve->y = scaled(std::move(curve->y), lengths.per_si);
+  }
+  figure.panels.front().curves = {std::move(strained), std::move(outline), std::move(measured)};
   draw(figure, directory / fmt::format("profile_{}.png", body.name));
 }
 
@@ -182,7 +285,7 @@ std::vector<std::string> draw_figures(const Case& c, const Simulation& s, const 
       troubles.push_back(fmt::format("a figure is missing: {}", error.what()));
     }
   };
-  attempt([&] { draw_energy(c, s, directory); });
+  attempt([&] { draw_energy(c, directory); });
   attempt([&] { draw_field(c, s, directory); });
   std::vector<std::size_t> drawn;
   for (const MeasureConfig& measure : c.measures) {
@@ -191,6 +294,7 @@ std::vector<std::string> draw_figures(const Case& c, const Simulation& s, const 
     drawn.push_back(body);
     attempt([&] { draw_profile(c, s, measure, directory); });
   }
+  for (const FigureConfig& figure : c.figures) attempt([&] { draw_line(c, s, figure, directory); });
   return troubles;
 }
 

@@ -10,6 +10,7 @@
 #include "models/programs/files.hpp"
 #include "simulator/case_reader.hpp"
 #include "simulator/output/checkpoint.hpp"
+#include "simulator/output/grid_snapshot.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -21,8 +22,9 @@ bool is_output_of_a_run(const std::string& name) {
                                 "checkpoint_a.h5", "checkpoint_b.h5", "energy.png",  "field.png"};
   if (std::find(whole.begin(), whole.end(), name) != whole.end()) return true;
   return name.ends_with(".part") || name.ends_with("_particles.hdf.series") ||
-         (name.ends_with(".hdf") && name.find("_particles_") != std::string::npos) ||
-         (name.starts_with("profile_") && name.ends_with(".png"));
+         (name.ends_with(".hdf") && name.find("_particles_") != std::string::npos) || name == solid_grid + ".pvd" ||
+         (name.starts_with(solid_grid + "_") && name.ends_with(".vti")) ||
+         ((name.starts_with("profile_") || name.starts_with("line_")) && name.ends_with(".png"));
 }
 
 std::string text_of(const fs::path& path) {

@@ -9,6 +9,7 @@
 
 #include "models/programs/files.hpp"
 #include "simulator/output/fields.hpp"
+#include "simulator/output/grid_snapshot.hpp"
 #include "simulator/output/hdf5_file.hpp"
 #include "simulator/output/json.hpp"
 
@@ -82,14 +83,17 @@ void write_snapshot(const std::filesystem::path& directory, const Simulation& s,
   }
 }
 
-std::vector<std::string> damaged_snapshots(const std::filesystem::path& directory, const Simulation& s, std::size_t count) {
-  std::vector<std::string> troubles;
-  for (const Body& body : s.bodies)
-    for (std::size_t i = 0; i < count; ++i) try {
-        require_seal(directory / snapshot_name(body.name, i));
-      } catch (const std::exception& error) {
-        troubles.push_back(error.what());
-      }
+std::vector<std::string> damaged_snapshots(const std::filesystem::path& directory, const Case& c, std::size_t count) {
+  std::vector<std::string> names, troubles;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const BodyConfig& body : c.bodies) names.push_back(snapshot_name(body.name, i));
+    if (c.output.grid) names.push_back(grid_snapshot_name(solid_grid, i));
+  }
+  for (const std::string& name : names) try {
+      require_seal(directory / name);
+    } catch (const std::exception& error) {
+      troubles.push_back(error.what());
+    }
   return troubles;
 }
 

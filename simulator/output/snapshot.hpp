@@ -14,8 +14,9 @@ namespace brisance::simulator {
 /// last.
 void write_snapshot(const std::filesystem::path& directory, const Simulation& s, const std::vector<double>& times);
 
-/// What is wrong with the first `count` snapshots of a directory: one line for each file that is missing, cut off or changed.
-std::vector<std::string> damaged_snapshots(const std::filesystem::path& directory, const Simulation& s, std::size_t count);
+/// What is wrong with the first `count` snapshots of a case, those of the grid included: one line for each file that is
+/// missing, cut off or changed.
+std::vector<std::string> damaged_snapshots(const std::filesystem::path& directory, const Case& c, std::size_t count);
 
 /// The files of a body: "bar_particles_000042.hdf" and "bar_particles.hdf.series".
 std::string snapshot_name(const std::string& body, std::size_t number);

@@ -26,6 +26,7 @@ const fs::path& folder() {
     const fs::path made = fs::path(testing::TempDir()) / ("brisance_case_" + std::to_string(getpid()));
     fs::create_directories(made);
     std::ofstream(made / "profile.csv") << "radius [mm],height [mm]\n5.5,0\n3.81,22.5\n";
+    std::ofstream(made / "reference.csv") << "y [mm],pressure [GPa]\n0,1\n10,0\n";
     std::ofstream(made / "bad_profile.csv") << "radius [mm],z [mm]\n5.5,0\n";
     return made;
   }();
@@ -142,6 +143,14 @@ measured = "4 mm"
 kind = "profile_error"
 body = "rod"
 profile = "profile.csv"
+[[figure]]
+name = "through"
+kind = "line"
+fields = ["velocity", "pressure"]
+from = [0, 0, 0]
+to = [0, "10 mm", 0]
+body = "target"
+reference = "reference.csv"
 [output]
 history_interval = "1 us"
 snapshot_interval = "2 us"
@@ -150,6 +159,7 @@ checkpoint_steps = 400
 checkpoint_wall = "5 min"
 figure_field = "temperature"
 figures = false
+grid = true
 [gates]
 residual = 1e-9
 numerical = 0.5
@@ -205,7 +215,11 @@ TEST(CaseReader, ReadsEveryKey) {
   EXPECT_EQ(c.gauges.at(0).side, Side::below);
   EXPECT_EQ(c.measures.at(0).measured, 0.004);
   EXPECT_EQ(c.measures.at(1).profile, folder() / "profile.csv");
+  EXPECT_EQ(c.figures.at(0).fields, (std::vector<std::string>{"velocity", "pressure"}));
+  EXPECT_EQ(c.figures.at(0).to, (Vector{0, 0.01, 0}));
+  EXPECT_EQ(c.figures.at(0).reference, folder() / "reference.csv");
   EXPECT_EQ(c.output.checkpoint_wall, 300.0);
+  EXPECT_TRUE(c.output.grid);
   EXPECT_EQ(c.output.figure_field, "temperature");
   EXPECT_EQ(c.gates.fastest, 3000.0);
 }
@@ -329,6 +343,19 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
       {"side = \"above\"\n",
        "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"point\"\nfrom = [0, 0]\nfields = [\"presure\"]",
        "case.toml:21:10: gauge.0.fields: \"presure\" cannot be recorded; it must be one of position, velocity,"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[figure]]\nname = \"a\"\nkind = \"line\"\nfrom = [0, 0]\nto = [0, 1]\nfields = [\"position\"]",
+       "figure.0.fields: \"position\" cannot be drawn; it must be one of velocity, stress_xx,"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[figure]]\nname = \"a\"\nkind = \"line\"\nfrom = [0, 0]\nto = [0, 0]\nfields = [\"pressure\"]",
+       "figure.0.to: it is where `from` is; a line has a length"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[figure]]\nname = \"a/b\"\nkind = \"line\"\nfrom = [0, 0]\nto = [0, 1]\nfields = [\"pressure\"]",
+       "figure.0.name: \"a/b\": it becomes part of file names; give letters, digits, _ and -"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[figure]]\nname = \"a\"\nkind = \"line\"\nfrom = [0, 0]\nto = [0, 1]\nfields = [\"density\"]\n"
+       "reference = \"reference.csv\"",
+       "reference.csv: none of its columns is drawn; at least one of density is required"},
       {"side = \"above\"\n", "side = \"above\"\n[[load]]\nregion = { sphere = { centre = [0, 0], radius = 1 } }",
        "load.0: nothing acts; give pressure or traction"},
       {"temperature = \"295 K\"", "temperature = \"295 K\"\nporosity = { law = \"constant\", value = 0.01 }",

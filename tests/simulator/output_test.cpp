@@ -1,15 +1,24 @@
 // What a run writes: snapshots that ParaView reads, histories, summaries, measures.
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <cmath>
+#include <cstring>
+#include <map>
 #include <numbers>
+#include <sstream>
 
 #include "models/input/csv.hpp"
+#include "models/input/diagnostics.hpp"
 #include "models/input/toml_tree.hpp"
+#include "models/programs/files.hpp"
 #include "simulator/case_reader.hpp"
 #include "simulator/output/fields.hpp"
+#include "simulator/output/figures.hpp"
+#include "simulator/output/grid_snapshot.hpp"
 #include "simulator/output/hdf5_file.hpp"
+#include "simulator/output/line_out.hpp"
 #include "simulator/output/measures.hpp"
 #include "simulator/output/run_directory.hpp"
 #include "simulator/output/snapshot.hpp"
@@ -130,18 +139,202 @@ TEST(Snapshot, AFullDiskIsReportedAndLeavesTheEarlierOneGood) {
   }
 }
 
+/// An image file read by the rules of VTK's file formats alone: every attribute must be there, and the packed arrays must
+/// follow each other without a gap.
+struct ReadImage {
+  std::map<std::string, std::string> attributes;  // "ImageData.Spacing", "mass.NumberOfComponents"
+  std::vector<std::string> point_fields, cell_fields;
+  std::map<std::string, std::vector<double>> values;
+
+  explicit ReadImage(const fs::path& path) {
+    const std::string text = text_of(path), begin_of_data = "<AppendedData encoding=\"raw\">\n_";
+    const std::size_t data = text.find(begin_of_data) + begin_of_data.size();
+    std::size_t end_of_arrays = data;
+    bool cells = false;
+    for (std::size_t at = text.find('<'); at < data; at = text.find('<', at + 1)) {
+      std::istringstream element(text.substr(at + 1, text.find('>', at) - at - 1));
+      std::string tag, name, value;
+      element >> tag;
+      std::map<std::string, std::string> of_element;
+      while (std::getline(element >> std::ws, name, '=') && std::getline(element.ignore(), value, '"'))
+        of_element[name] = value;
+      const std::string owner = tag == "DataArray" ? of_element["Name"] : tag;
+      for (const auto& [key, text_of_it] : of_element) attributes[owner + '.' + key] = text_of_it;
+      cells = cells || tag == "CellData";
+      if (of_element["format"] != "appended") continue;
+      (cells ? cell_fields : point_fields).push_back(owner);
+      EXPECT_EQ(data + std::stoul(of_element["offset"]), end_of_arrays) << owner;
+      values[owner] = unpack(text, end_of_arrays);
+    }
+    EXPECT_EQ(text.substr(end_of_arrays, 28), "\n  </AppendedData>\n</VTKFile");
+  }
+
+ private:
+  static std::vector<double> unpack(const std::string& text, std::size_t& at) {
+    const auto number = [&] {
+      std::uint64_t n = 0;
+      std::memcpy(&n, text.data() + at, sizeof n);
+      at += sizeof n;
+      return n;
+    };
+    const std::uint64_t blocks = number(), size = number(), last = number();
+    std::vector<std::uint64_t> lengths(blocks);
+    for (std::uint64_t& length : lengths) length = number();
+    std::vector<double> result;
+    for (std::uint64_t b = 0; b < blocks; ++b) {
+      uLongf bytes = b + 1 == blocks && last > 0 ? last : size;
+      const std::size_t before = result.size();
+      result.resize(before + bytes / sizeof(double));
+      const uLongf expected = bytes;
+      EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(result.data() + before), &bytes,
+                           reinterpret_cast<const Bytef*>(text.data() + at), lengths[b]),
+                Z_OK);
+      EXPECT_EQ(bytes, expected);
+      at += lengths[b];
+    }
+    return result;
+  }
+};
+
+std::vector<double> made_up(std::size_t count) {
+  std::vector<double> values(count);
+  for (std::size_t i = 0; i < count; ++i) values[i] = std::sin(static_cast<double>(i));
+  return values;
+}
+
+TEST(GridSnapshot, HasWhatAVtkReaderAsksFor) {
+  const fs::path file = scratch() / "image.vti";
+  ImageData image{{0.5, 0.25, 0.0}, {0.1, 0.2, 0.4}, {-1, 2, 0}, {30, 17, 15}, {}, {}};  // 32 x 16 x 16 nodes
+  constexpr std::size_t points = 32 * 16 * 16, cells = 31 * 15 * 15;
+  ASSERT_EQ(image.points(), points);
+  ASSERT_EQ(image.cells(), cells);
+  // A block holds 8192 numbers: the points fill one to the end, their vectors three; the cells leave one unfilled.
+  image.point_fields = {{"mass", 1, made_up(points)}, {"velocity", 3, made_up(3 * points)}};
+  image.cell_fields = {{"pressure", 1, made_up(cells)}, {"flux", 3, made_up(3 * cells)}};
+  write_image(file, image, 2.5e-6);
+  require_seal(file);
+  ReadImage read(file);
+  EXPECT_EQ(read.attributes["VTKFile.type"], "ImageData");
+  EXPECT_EQ(read.attributes["VTKFile.version"], "1.0");  // the first with UInt64 headers
+  EXPECT_EQ(read.attributes["VTKFile.byte_order"], "LittleEndian");
+  EXPECT_EQ(read.attributes["VTKFile.header_type"], "UInt64");
+  EXPECT_EQ(read.attributes["VTKFile.compressor"], "vtkZLibDataCompressor");
+  EXPECT_EQ(read.attributes["ImageData.WholeExtent"], "-1 30 2 17 0 15");
+  EXPECT_EQ(read.attributes["Piece.Extent"], "-1 30 2 17 0 15");
+  EXPECT_EQ(read.attributes["ImageData.Origin"], "0.5 0.25 0");
+  EXPECT_EQ(read.attributes["ImageData.Spacing"], "0.1 0.2 0.4");
+  EXPECT_EQ(read.point_fields, (std::vector<std::string>{"mass", "velocity"}));
+  EXPECT_EQ(read.cell_fields, (std::vector<std::string>{"pressure", "flux"}));
+  for (const auto* fields : {&image.point_fields, &image.cell_fields})
+    for (const ImageField& field : *fields) {
+      EXPECT_EQ(read.attributes[field.name + ".type"], "Float64");
+      EXPECT_EQ(read.attributes[field.name + ".NumberOfComponents"], std::to_string(field.components));
+      EXPECT_TRUE(read.values[field.name] == field.values) << field.name;
+    }
+  EXPECT_EQ(read.attributes["TimeValue.NumberOfTuples"], "1");
+  EXPECT_NE(text_of(file).find("format=\"ascii\">2.5e-06</DataArray>\n    </FieldData>"), std::string::npos);
+}
+
+TEST(GridSnapshot, AFieldThatDoesNotFitTheBoxIsRefused) {
+  const fs::path file = scratch() / "image.vti";
+  ImageData image{{}, {1.0, 1.0, 1.0}, {0, 0, 0}, {2, 3, 0}, {{"mass", 1, made_up(12)}}, {{"pressure", 1, made_up(6)}}};
+  EXPECT_NO_THROW(write_image(file, image, 0.0));
+  image.cell_fields[0].values.push_back(0.0);
+  EXPECT_THROW(write_image(file, image, 0.0), std::invalid_argument);
+}
+
+TEST(GridSnapshot, TheNodesHoldTheMassVelocityAndPlaceOfTheBar) {
+  const fs::path directory = scratch();
+  const Case c = small_case(directory);
+  Simulation s = set_up(c);
+  write_grid_snapshot(directory, solid_grid, solid_image(s), {0.0});
+  ReadImage read(directory / "solid_grid_000000.vti");
+  // 4 x 15 cells of 0.8 mm; splines reach half a cell beyond the particles, whose outermost ones are a quarter inside, and what
+  // they add beyond the wall and the axis is folded back.
+  EXPECT_EQ(read.attributes["ImageData.WholeExtent"], "0 5 0 16 0 0");
+  EXPECT_EQ(read.attributes["ImageData.Spacing"], "0.0008 0.0008 0.0008");
+  const double bar = c.bodies[0].material.material.density * std::numbers::pi * 3.2e-3 * 3.2e-3 * 12e-3;
+  constexpr double rounding = 1e-12;
+  double mass = 0.0;
+  for (const double m : read.values["mass"]) mass += m;
+  EXPECT_NEAR(mass / bar, 1.0, rounding);
+  const std::vector<double>&velocity = read.values["velocity"], &force = read.values["force"];
+  ASSERT_EQ(velocity.size(), 3 * 6 * 17u);
+  for (std::size_t j = 0; j < 17; ++j)
+    for (std::size_t i = 0; i < 6; ++i) {
+      const std::size_t n = i + 6 * j;
+      EXPECT_NEAR(velocity[3 * n + 1], j == 0 ? 0.0 : -190.0, 190.0 * rounding) << i << ' ' << j;  // the wall holds its nodes
+      for (const double none : {velocity[3 * n], velocity[3 * n + 2], force[3 * n], force[3 * n + 1], force[3 * n + 2]})
+        EXPECT_EQ(none, 0.0);  // there is no stress yet
+    }
+}
+
+TEST(GridSnapshot, TheCollectionListsEverySnapshotWithItsTime) {
+  const fs::path directory = scratch();
+  Simulation s = set_up(small_case(directory));
+  write_grid_snapshot(directory, solid_grid, solid_image(s), {0.0, 2.5e-6});
+  EXPECT_EQ(
+      text_of(directory / "solid_grid.pvd"),
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n"
+      "    <DataSet timestep=\"0\" part=\"0\" file=\"solid_grid_000000.vti\"/>\n"
+      "    <DataSet timestep=\"2.5e-06\" part=\"0\" file=\"solid_grid_000001.vti\"/>\n"
+      "  </Collection>\n</VTKFile>\n");
+  EXPECT_TRUE(fs::exists(directory / "solid_grid_000001.vti"));
+}
+
+TEST(GridSnapshot, DamageAnywhereIsFoundOutAndAFullDiskLeavesTheEarlierOneGood) {
+  const fs::path directory = scratch(), file = directory / "solid_grid_000000.vti", part = directory / "part.vti";
+  Simulation s = set_up(small_case(directory));
+  const ImageData image = solid_image(s);
+  write_image(file, image, 0.0);
+  const std::string bytes = text_of(file);
+  for (std::size_t length = 0; length < bytes.size(); length += 1 + bytes.size() / 50) {
+    write_text(part, bytes.substr(0, length));
+    EXPECT_THROW(require_seal(part), std::runtime_error) << length;
+    std::string changed = bytes;
+    changed[length] = static_cast<char>(changed[length] ^ 4);
+    write_text(part, changed);
+    EXPECT_THROW(require_seal(part), std::runtime_error) << length;
+  }
+  for (const std::size_t room : {std::size_t{100}, bytes.size() / 2, bytes.size() - 10}) {
+    const std::string message = on_a_full_disk([&] { write_image(file, image, 1e-6); }, room);
+    EXPECT_NE(message.find("solid_grid_000000.vti: cannot be written"), std::string::npos) << message;
+    EXPECT_TRUE(text_of(file) == bytes) << room;
+  }
+}
+
+TEST(GridSnapshot, ChangesNothingOfTheRunAndIsTheSameAfterARestart) {
+  const fs::path directory = scratch();
+  const std::string output = "[output]\nfigures = false\nsnapshot_interval = \"2 us\"\n";
+  const Case without = small_case(directory, output), with = small_case(directory, output + "grid = true\n");
+  for (const char* name : {"without", "whole", "parts"}) prepare_directory(directory / name, with, false);
+  Simulation plain = set_up(without), whole = set_up(with), first = set_up(with), second = set_up(with);
+  ASSERT_EQ(run(without, plain, {directory / "without", {}}).ending, Ending::done);
+  ASSERT_EQ(run(with, whole, {directory / "whole", {}}).ending, Ending::done);
+  EXPECT_TRUE(bits_of(plain) == bits_of(whole));
+  EXPECT_FALSE(fs::exists(directory / "without" / "solid_grid.pvd"));
+  ASSERT_EQ(run(with, first, {directory / "parts", {}, 30}).ending, Ending::interrupted);
+  ASSERT_EQ(resume(with, second, {directory / "parts", {}}).ending, Ending::done);
+  for (const char* name : {"solid_grid.pvd", "solid_grid_000000.vti", "solid_grid_000002.vti", "solid_grid_000004.vti"}) {
+    ASSERT_TRUE(fs::exists(directory / "whole" / name)) << name;
+    EXPECT_TRUE(text_of(directory / "parts" / name) == text_of(directory / "whole" / name)) << name;
+  }
+}
+
 TEST(Report, TellsWhichSnapshotsAreDamagedOrMissing) {
   const fs::path directory = scratch(), run_directory = directory / "run";
-  const Case c = small_case(directory, "[output]\nfigures = false\nsnapshot_interval = \"2 us\"\n");
+  const Case c = small_case(directory, "[output]\nfigures = false\ngrid = true\nsnapshot_interval = \"2 us\"\n");
   Simulation s = set_up(c);
   prepare_directory(run_directory, c, false);
   ASSERT_EQ(run(c, s, {run_directory, {}}).ending, Ending::done);
   EXPECT_EQ(report(c, s, run_directory).message, "");
   fs::resize_file(run_directory / "bar_particles_000001.hdf", 5000);
   fs::remove(run_directory / "bar_particles_000002.hdf");
+  fs::resize_file(run_directory / "solid_grid_000003.vti", 2000);
   const std::string message = report(c, s, run_directory).message;
   EXPECT_NE(message.find("bar_particles_000001.hdf: is damaged"), std::string::npos) << message;
   EXPECT_NE(message.find("bar_particles_000002.hdf: cannot be read"), std::string::npos) << message;
+  EXPECT_NE(message.find("solid_grid_000003.vti: is damaged"), std::string::npos) << message;
   EXPECT_EQ(message.find("bar_particles_000003"), std::string::npos) << message;
 }
 
@@ -268,6 +461,73 @@ TEST(Gauges, SeeALinearFieldWhereTheyAre) {
   EXPECT_NEAR(row[1], 348.0, rounding);
   EXPECT_NEAR(row[3], 0.0, 1e-15);
   EXPECT_TRUE(std::isnan(row[4]));
+}
+
+std::string line_figure(const std::string& more) {
+  return "[[figure]]\nname = \"a\"\nkind = \"line\"\n" + more;
+}
+
+TEST(LineOut, HoldsTheParticlesBesideTheLineInOrder) {
+  const fs::path directory = scratch();
+  const Case c = small_case(
+      directory,
+      line_figure("fields = [\"velocity\", \"temperature\"]\nfrom = [\"1.1 mm\", \"2 mm\"]\nto = [\"1.1 mm\", \"10 mm\"]\n"));
+  Simulation s = set_up(c);
+  Particles& ps = s.bodies[0].particles;
+  for (int p = 0; p < ps.size; ++p) ps.motion.at(2, p) = 7.0, ps.motion.at(3, p) = 5e4 * ps.motion.at(1, p);
+  const LineOut line = line_out(s, c.figures[0]);
+  EXPECT_EQ(line.coordinate, "y");
+  // Particles are 0.4 mm apart; half a cell about r = 1.1 mm holds the columns at 1.0 and 1.4 mm, and 2 to 10 mm 20 rows.
+  ASSERT_EQ(line.place.size(), 40u);
+  for (std::size_t i = 0; i < line.place.size(); ++i) {
+    EXPECT_NEAR(line.place[i], 2.2e-3 + 0.4e-3 * static_cast<double>(i / 2), 1e-15);
+    EXPECT_DOUBLE_EQ(line.values[0][i], 5e4 * line.place[i]);
+    EXPECT_EQ(line.values[1][i], 298.0);
+  }
+}
+
+TEST(LineOut, OfAnObliqueLineIsOverTheDistanceWithTheComponentAlongIt) {
+  const fs::path directory = scratch();
+  const Case c =
+      small_case(directory, line_figure("fields = [\"velocity\"]\nfrom = [0, \"2 mm\"]\nto = [\"3 mm\", \"6 mm\"]\n"));
+  Simulation s = set_up(c);
+  Particles& ps = s.bodies[0].particles;
+  for (int p = 0; p < ps.size; ++p) ps.motion.at(2, p) = 10.0, ps.motion.at(3, p) = 20.0;
+  const LineOut line = line_out(s, c.figures[0]);
+  EXPECT_EQ(line.coordinate, "distance");
+  ASSERT_GT(line.place.size(), 10u);
+  EXPECT_TRUE(std::is_sorted(line.place.begin(), line.place.end()));
+  EXPECT_GE(line.place.front(), 0.0);
+  EXPECT_LE(line.place.back(), 5e-3);
+  for (const double v : line.values[0]) EXPECT_NEAR(v, 0.6 * 10.0 + 0.8 * 20.0, 1e-12);
+}
+
+TEST(LineOut, TheReferenceIsReadInItsUnitsAndMustHoldSomethingThatIsDrawn) {
+  const fs::path directory = scratch();
+  const std::string keys =
+      "fields = [\"pressure\", \"velocity\"]\nfrom = [0, 0]\nto = [0, \"9 mm\"]\nreference = \"reference.csv\"\n";
+  write_text(directory / "reference.csv", "y [mm],velocity [km/s]\n0,-0.19\n9,0.5\n");
+  const LineOut reference = read_reference(small_case(directory, line_figure(keys)).figures[0]);
+  EXPECT_DOUBLE_EQ(reference.place[1], 9e-3);
+  EXPECT_TRUE(reference.values[0].empty());
+  EXPECT_DOUBLE_EQ(reference.values[1][0], -190.0);
+  for (const char* useless : {"x [mm],velocity [m/s]\n0,1\n", "y [mm],speed [m/s]\n0,1\n", "y [mm],velocity [GPa]\n0,1\n"}) {
+    write_text(directory / "reference.csv", useless);
+    EXPECT_THROW(small_case(directory, line_figure(keys)), InputError) << useless;
+  }
+}
+
+TEST(Figures, AreDrawnAndTheCasesOwnAmongThem) {
+  const fs::path directory = scratch();
+  const Case c = small_case(directory, "[[measure]]\nkind = \"final_length\"\n" +
+                                           line_figure("fields = [\"velocity\", \"stress_yy\"]\nfrom = [\"1 mm\", 0]\n"
+                                                       "to = [\"1 mm\", \"12 mm\"]\n"));
+  Simulation s = set_up(c);
+  prepare_directory(directory / "run", c, false);
+  run(c, s, {directory / "run", {}, 5});
+  EXPECT_EQ(draw_figures(c, s, directory / "run"), std::vector<std::string>{});
+  for (const char* name : {"energy.png", "field.png", "profile_bar.png", "line_a.png"})
+    EXPECT_TRUE(text_of(directory / "run" / name).starts_with("\x89PNG")) << name;
 }
 
 TEST(Gates, ARunThatExceedsOneStopsAndSaysWhich) {

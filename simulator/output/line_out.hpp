@@ -1,0 +1,26 @@
+#pragma once
+// Fields along a line: as they are in a simulation, and as a file says they should be.
+
+#include <string>
+#include <vector>
+
+#include "simulator/config.hpp"
+#include "simulator/simulation.hpp"
+
+namespace brisance::simulator {
+
+struct LineOut {
+  std::string coordinate;                   // x, y or z along an axis; else the distance from the first end
+  std::vector<double> place;                // m
+  std::vector<std::vector<double>> values;  // SI, of each field of the figure at each place; empty if there are none
+};
+
+/// The particles no farther than half a cell from the line, in the order of their places. Of a vector the component along the
+/// line.
+LineOut line_out(const Simulation& s, const FigureConfig& figure);
+
+/// The columns of the figure's reference that are named as the coordinate and as its fields. Throws InputError if the file
+/// cannot be read, or has no coordinate or none of the fields.
+LineOut read_reference(const FigureConfig& figure);
+
+}  // namespace brisance::simulator
