@@ -10,7 +10,6 @@
 #include <system_error>
 
 namespace brisance {
-namespace {
 
 using Path = std::filesystem::path;
 
@@ -21,6 +20,8 @@ void synchronise(const Path& path) {
   if (file >= 0) ::close(file);
   if (!done) throw std::system_error(error, std::generic_category());
 }
+
+namespace {
 
 void replace(const Path& path, const std::function<void(const Path&)>& write_to, bool durably) {
   const Path temporary = path.string() + ".part";
