@@ -56,7 +56,6 @@ class CaseReader {
   Config read_struct(TableReader in) {
     Config config{};
     read_keys(in, config);
-    if constexpr (std::is_same_v<Config, OutputConfig>) check_figure_field(in, config.figure_field);
     return config;
   }
 
@@ -95,7 +94,7 @@ class CaseReader {
   template <class K>
   void read_value(TableReader& in, const K& key, Path& value) {
     const Path name = in.text(key.name, key.meaning);
-    value = (in.file().parent_path() / name).lexically_normal();
+    value = std::filesystem::absolute(in.file().parent_path() / name).lexically_normal();
   }
   template <class K>
   void read_value(TableReader& in, const K& key, std::vector<std::string>& value) {
@@ -107,6 +106,11 @@ class CaseReader {
     const std::size_t before = in.problem_count();
     value = in.choice<Enum>(key.name);
     if constexpr (std::is_same_v<Enum, Geometry>) geometry_known_ = in.problem_count() == before;
+  }
+  template <class K, class T>
+  requires(std::is_enum_v<T> || std::is_same_v<T, bool>) void read_value(TableReader& in, const K& key,
+                                                                         std::optional<T>& value) {
+    read_value(in, key, value.emplace());
   }
   template <class K>
   void read_value(TableReader& in, const K& key, Vector& value) {
@@ -164,6 +168,8 @@ class CaseReader {
   requires(std::tuple_size_v<decltype(keys<Config>)> > 0) void read_value(TableReader& in, const K& key, Config& value) {
     TableReader table = in.table(key.name);
     read_keys(table, value);
+    if constexpr (std::is_same_v<Config, OutputConfig>) check_figure_field(table, value.figure_field);
+    if constexpr (std::is_same_v<Config, NumericsConfig>) check_trimming(table, value);
   }
 
   template <class... Law>
@@ -362,6 +368,16 @@ class CaseReader {
     for (const BodyConfig& body : case_.bodies) check_side(in, boundary, axis, body);
   }
 
+  /// In two dimensions the filled part of a sub-cell is known in sixteenths.
+  void check_trimming(TableReader& in, const NumericsConfig& numerics) {
+    constexpr double least = 1.0 / (samples_per_direction * samples_per_direction);
+    if (geometry_known_ && dimensions() == 2 && numerics.trimming && *numerics.trimming > 0.0 && *numerics.trimming < least)
+      in.problem("trimming",
+                 fmt::format("it would be ignored: in two dimensions a sub-cell is sampled in {} places; give 0, or "
+                             "{} and more",
+                             samples_per_direction * samples_per_direction, least));
+  }
+
   /// Figures are coloured by one number of each particle.
   void check_figure_field(TableReader& in, const std::string& field) {
     std::vector<std::string_view> scalars;
@@ -426,7 +442,7 @@ class CaseReader {
 
   void check(TableReader& in, GaugeConfig& gauge, const std::vector<GaugeConfig>& others) {
     require_own_name(in, gauge, others);
-    require_component_in_geometry(in, gauge.axis);
+    check_surface(in, gauge);
     if (!gauge.body.empty()) require_body(in, gauge.body);
     for (const std::string& field : gauge.fields)
       if (std::find(gauge_fields.begin(), gauge_fields.end(), field) == gauge_fields.end())
@@ -442,6 +458,16 @@ class CaseReader {
     } else if (gauge.from == gauge.to) {
       in.problem("to", "it is where `from` is; only a point has no extent");
     }
+  }
+
+  /// A surface is sought along an axis and goes with the material; the other kinds know neither axis nor side.
+  void check_surface(TableReader& in, const GaugeConfig& gauge) {
+    if (gauge.axis) require_component_in_geometry(in, *gauge.axis);
+    const bool surface = gauge.kind == GaugeKind::surface;
+    if (surface && !gauge.axis) in.problem("axis", "missing: the direction in which the surface is sought");
+    if (surface && gauge.moves) in.problem("moves", "it would be ignored: a surface is where the material ends");
+    if (!surface && gauge.axis) in.problem("axis", "it would be ignored: the kind is not surface");
+    if (!surface && gauge.side) in.problem("side", "it would be ignored: the kind is not surface");
   }
 
   void check(TableReader& in, MeasureConfig& measure, const std::vector<MeasureConfig>& others) {
