@@ -65,7 +65,6 @@ class CaseReader {
   Config read_struct(TableReader in) {
     Config config{};
     read_keys(in, config);
-    if constexpr (std::is_same_v<Config, OutputConfig>) check_figure_field(in, config.figure_field);
     return config;
   }
 
@@ -104,7 +103,7 @@ class CaseReader {
   template <class K>
   void read_value(TableReader& in, const K& key, Path& value) {
     const Path name = in.text(key.name, key.meaning);
-    value = (in.file().parent_path() / name).lexically_normal();
+    value = std::filesystem::absolute(in.file().parent_path() / name).lexically_normal();
   }
   template <class K>
   void read_value(TableReader& in, const K& key, std::vector<std::string>& value) {
@@ -116,6 +115,11 @@ class CaseReader {
     const std::size_t before = in.problem_count();
     value = in.choice<Enum>(key.name);
     if constexpr (std::is_same_v<Enum, Geometry>) geometry_known_ = in.problem_count() == before;
+  }
+  template <class K, class T>
+  requires(std::is_enum_v<T> || std::is_same_v<T, bool>) void read_value(TableReader& in, const K& key,
+                                                                         std::optional<T>& value) {
+    read_value(in, key, value.emplace());
   }
   template <class K>
   void read_value(TableReader& in, const K& key, Vector& value) {
@@ -183,6 +187,8 @@ class CaseReader {
   requires(std::tuple_size_v<decltype(keys<Config>)> > 0) void read_value(TableReader& in, const K& key, Config& value) {
     TableReader table = in.table(key.name);
     read_keys(table, value);
+    if constexpr (std::is_same_v<Config, OutputConfig>) check_figure_field(table, value.figure_field);
+    if constexpr (std::is_same_v<Config, NumericsConfig>) check_trimming(table, value);
   }
 
   template <class... Law>
@@ -386,6 +392,16 @@ class CaseReader {
     for (const BodyConfig& body : case_.bodies) check_side(in, boundary, axis, body);
   }
 
+  /// In two dimensions the filled part of a sub-cell is known in sixteenths.
+  void check_trimming(TableReader& in, const NumericsConfig& numerics) {
+    constexpr double least = 1.0 / (samples_per_direction * samples_per_direction);
+    if (geometry_known_ && dimensions() == 2 && numerics.trimming && *numerics.trimming > 0.0 && *numerics.trimming < least)
+      in.problem("trimming",
+                 fmt::format("it would be ignored: in two dimensions a sub-cell is sampled in {} places; give 0, or "
+                             "{} and more",
+                             samples_per_direction * samples_per_direction, least));
+  }
+
   /// Figures are coloured by one number of each particle.
   void check_figure_field(TableReader& in, const std::string& field) {
     std::vector<std::string_view> scalars;
@@ -529,7 +545,7 @@ class CaseReader {
 
   void check(TableReader& in, GaugeConfig& gauge, const std::vector<GaugeConfig>& others) {
     require_own_name(in, gauge, others);
-    require_component_in_geometry(in, gauge.axis);
+    check_surface(in, gauge);
     if (!gauge.body.empty()) require_body(in, gauge.body);
     if (case_.gas) return check_gas_gauge(in, gauge);
     for (const std::string& field : gauge.fields)
@@ -551,21 +567,37 @@ class CaseReader {
   void check_gas_gauge(TableReader& in, GaugeConfig& gauge) {
     if (gauge.kind != GaugeKind::point && gauge.kind != GaugeKind::line)
       in.problem("kind", "in gas a gauge is a point or a line");
-    if (in.has("moves") && gauge.moves) in.problem("moves", "in gas a gauge stands still");
+    if (gauge.moves.value_or(false)) in.problem("moves", "in gas a gauge stands still");
     if (!gauge.body.empty()) in.problem("body", "it would be ignored: there are no bodies");
     gauge.moves = false;
+    check_gas_fields(in, gauge.fields);
+    check_in_box(in, gauge.from, gauge.kind == GaugeKind::line ? gauge.to : gauge.from);
+  }
+  void check_gas_fields(TableReader& in, const std::vector<std::string>& fields) {
     std::vector<std::string> names = {"density", "pressure", "velocity", "temperature", "energy", "sound_speed"};
     for (const FluidConfig& fluid : case_.gas->fluids)
       if (case_.gas->fluids.size() > 1) names.push_back("fraction_" + fluid.name);
     const std::vector<std::string_view> allowed(names.begin(), names.end());
-    for (const std::string& field : gauge.fields)
+    for (const std::string& field : fields)
       if (std::find(names.begin(), names.end(), field) == names.end())
-        in.problem("fields", in_quotes(field) + " cannot be recorded in gas; it must be one of " + listed(allowed) +
+        in.problem("fields", in_quotes(field) + " is not known of gas; it must be one of " + listed(allowed) +
                                  did_you_mean(field, allowed));
+  }
+  void check_in_box(TableReader& in, const Vector& from, const Vector& to) {
     for (std::size_t k = 0; k < dimensions(); ++k)
-      for (const Vector& place : {gauge.from, gauge.kind == GaugeKind::line ? gauge.to : gauge.from})
+      for (const Vector& place : {from, to})
         if (place[k] < case_.gas->lower[k] || place[k] > case_.gas->upper[k])
           return in.problem("from", fmt::format("along {} it leaves the box of the gas", axis_names[k]));
+  }
+
+  /// A surface is sought along an axis and goes with the material; the other kinds know neither axis nor side.
+  void check_surface(TableReader& in, const GaugeConfig& gauge) {
+    if (gauge.axis) require_component_in_geometry(in, *gauge.axis);
+    const bool surface = gauge.kind == GaugeKind::surface;
+    if (surface && !gauge.axis) in.problem("axis", "missing: the direction in which the surface is sought");
+    if (surface && gauge.moves) in.problem("moves", "it would be ignored: a surface is where the material ends");
+    if (!surface && gauge.axis) in.problem("axis", "it would be ignored: the kind is not surface");
+    if (!surface && gauge.side) in.problem("side", "it would be ignored: the kind is not surface");
   }
 
   void check(TableReader& in, MeasureConfig& measure, const std::vector<MeasureConfig>& others) {
@@ -597,11 +629,13 @@ class CaseReader {
   void check(TableReader& in, FigureConfig& figure, const std::vector<FigureConfig>& others) {
     require_own_name(in, figure, others);
     require_file_name(in, figure.name);
-    if (!figure.body.empty()) require_body(in, figure.body);
+    if (!figure.body.empty() && case_.gas) in.problem("body", "it would be ignored: there are no bodies");
+    if (!figure.body.empty() && !case_.gas) require_body(in, figure.body);
     const std::size_t before = in.problem_count();
+    if (case_.gas) check_gas_fields(in, figure.fields), check_in_box(in, figure.from, figure.to);
     const std::span drawable = std::span(gauge_fields).subspan(1);  // all but the position
     for (const std::string& field : figure.fields)
-      if (std::find(drawable.begin(), drawable.end(), field) == drawable.end())
+      if (!case_.gas && std::find(drawable.begin(), drawable.end(), field) == drawable.end())
         in.problem("fields", in_quotes(field) + " cannot be drawn; it must be one of " + listed(drawable) +
                                  did_you_mean(field, drawable));
     if (figure.fields.empty()) in.problem("fields", "there is nothing to draw; give one or more of " + listed(drawable));

@@ -47,7 +47,7 @@ class CaseWriter {
   static std::string value(std::uint64_t x, Components) { return std::to_string(x); }
   static std::string value(const std::string& text, Components) { return text.empty() ? "" : toml_text(text); }
   static std::string value(const std::filesystem::path& path, Components) {
-    return path.empty() ? "" : toml_text(std::filesystem::absolute(path).lexically_normal().string());
+    return path.empty() ? "" : toml_text(path.generic_string());
   }
   static std::string value(const std::vector<std::string>& texts, Components) { return toml_list(texts, toml_text); }
   template <class Enum>

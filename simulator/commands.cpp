@@ -114,7 +114,7 @@ int check_case(const Options& o) {
   fmt::print("{}\n", c.title);
   for (const auto& [body, particles] : dry.particles) fmt::print("  {:24} {} particles\n", body, particles);
   fmt::print("  {:24} {:.1f} MB\n  {:24} {:.4g} s, limited by {}\n", "memory", dry.megabytes, "time step", dry.first_step,
-             "the initial state");
+             dry.limit);
   fmt::print("  {:24} {:.3g}\n  {:24} {:.0f} ns per particle and step, measured now with {} threads\n", "steps, about",
              dry.steps, "speed", dry.nanoseconds, omp_get_max_threads());
   fmt::print("  {:24} {}\n", "time on the clock, about",

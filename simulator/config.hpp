@@ -169,11 +169,11 @@ enum class GaugeKind { point, line, plane, surface };
 struct GaugeConfig {
   std::string name;
   GaugeKind kind = GaugeKind::point;
-  bool moves = true;        // with the material, or fixed in space
-  std::string body;         // empty: any
-  Vector from{}, to{};      // a point is `from`; a line runs from one to the other; a plane is the box between them
-  Axis axis = Axis::x;      // normal of a plane; direction in which a surface is sought
-  Side side = Side::above;  // which surface along that axis
+  std::optional<bool> moves;  // with the material (if not given), or fixed in space; not of kind surface
+  std::string body;           // empty: any
+  Vector from{}, to{};        // a point is `from`; a line runs from one to the other; a plane is the box between them
+  std::optional<Axis> axis;   // direction in which a surface is sought: kind surface
+  std::optional<Side> side;   // which surface along that axis, the upper one if not given: kind surface
   std::vector<std::string> fields;
 };
 
@@ -235,7 +235,7 @@ struct NumericsConfig {
   double growth = 1.1;              // of the step, per step
   double first_step = 0.0;          // s; 0: from the initial state
   double least_step = 0.0;          // s; a smaller one stops the run
-  double trimming = 0.05;           // sub-cells filled less than this get no particle
+  std::optional<double> trimming;   // sub-cells filled less than this get no particle; 0.05 in three dimensions, 0 in two
   std::uint64_t seed = 1;
 };
 

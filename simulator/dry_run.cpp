@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "simulator/output/fields.hpp"
-#include "simulator/solid/shapes.hpp"
 #include "simulator/step_size.hpp"
+#include "simulator/thickness.hpp"
 #include "simulator/time_step.hpp"
 
 namespace brisance::simulator {
@@ -16,64 +16,15 @@ namespace {
 
 constexpr double least_cells = 4.0;
 
-/// The thinnest thing in a shape, and what it is.
-struct Thinnest {
-  double size = std::numeric_limits<double>::infinity();
-  std::string what;
-  void add(double thickness, const std::string& name) {
-    if (thickness > 0.0 && thickness < size) size = thickness, what = name;
-  }
-};
-
-void look(const Shape& shape, const Case& c, Thinnest& thinnest) {
-  const auto along_axes = [&](const Vector& lower, const Vector& upper) {
-    for (int a = 0; a < c.dimensions(); ++a) {
-      const auto k = static_cast<std::size_t>(a);
-      // What a plane of symmetry cuts in half is twice as thick.
-      const bool mirrored = (c.geometry == Geometry::axisymmetric && a == 0 && lower[0] <= 0.0) ||
-                            std::any_of(c.boundaries.begin(), c.boundaries.end(), [&](const BoundaryConfig& b) {
-                              return b.kind == BoundaryKind::symmetry && static_cast<int>(b.axis) == a &&
-                                     b.position >= lower[k] && b.position <= upper[k];
-                            });
-      thinnest.add((mirrored ? 2.0 : 1.0) * (upper[k] - lower[k]), fmt::format("the body along {}", "xyz"[a]));
-    }
-  };
-  struct Visitor {
-    const Case& c;
-    Thinnest& thinnest;
-    const decltype(along_axes)& along;
-    void operator()(const Box& b) const { along(b.lower, b.upper); }
-    void operator()(const Cone& b) const {
-      thinnest.add(2.0 * std::max(b.start_radius, b.end_radius), "the diameter");
-      thinnest.add(std::sqrt(dot(b.end - b.start, b.end - b.start)), "the length");
-      if (b.inner_start_radius > 0.0) thinnest.add(b.start_radius - b.inner_start_radius, "the wall");
-      if (b.inner_end_radius > 0.0) thinnest.add(b.end_radius - b.inner_end_radius, "the wall");
-    }
-    void operator()(const Sphere& b) const {
-      thinnest.add(2.0 * b.radius, "the diameter");
-      if (b.inner_radius > 0.0) thinnest.add(b.radius - b.inner_radius, "the wall");
-    }
-    void operator()(const Union& u) const {
-      for (const ShapePointer& part : u.parts) look(*part, c, thinnest);
-    }
-    void operator()(const Intersection& u) const {
-      for (const ShapePointer& part : u.parts) look(*part, c, thinnest);
-    }
-    void operator()(const Difference& d) const { look(*d.from, c, thinnest); }
-  };
-  std::visit(Visitor{c, thinnest, along_axes}, shape.form);
-}
-
 std::vector<std::string> warnings_of(const Case& c, const Simulation& s, double first_step) {
   std::vector<std::string> warnings;
   for (const BodyConfig& body : c.bodies) {
-    Thinnest thinnest;
-    look(*body.shape, c, thinnest);
-    const double cells = thinnest.size / c.cell_size;
-    if (cells < least_cells)
+    if (const auto thin = thinnest_part(c, *body.shape, least_cells * c.cell_size))
       warnings.push_back(
-          fmt::format("{}: {} is {:.3g} cells, fewer than {:g}: it will bend and neck too easily; take smaller cells",
-                      body.name, thinnest.what, cells, least_cells));
+          fmt::format("{}: near ({:.4g}, {:.4g}, {:.4g}) m it is {:.2g} cells thick, fewer than {:g}: it will bend and neck "
+                      "too easily; take "
+                      "smaller cells",
+                      body.name, thin->place[0], thin->place[1], thin->place[2], thin->thickness / c.cell_size, least_cells));
     if (body.particles_per_direction < 2)
       warnings.push_back(fmt::format("{}: one particle per cell and direction: gaps open at small strains", body.name));
   }
@@ -104,7 +55,8 @@ DryRun dry_run(const Case& c, Simulation& s) {
     result.particles.emplace_back(body.name, body.particles.size);
     particles += body.particles.size;
   }
-  result.first_step = next_step(s, c.numerics, c.end_time).dt;
+  const StepSize first = next_step(s, c.numerics, c.end_time);
+  result.first_step = first.dt, result.limit = first.limit;
   result.warnings = warnings_of(c, s, result.first_step);
   using Clock = std::chrono::steady_clock;
   constexpr double long_enough = 1.0;  // s

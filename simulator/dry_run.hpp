@@ -14,6 +14,7 @@ struct DryRun {
   std::vector<std::pair<std::string, std::int64_t>> particles;  // by body
   double megabytes = 0.0;
   double first_step = 0.0;   // s
+  std::string limit;         // what the first step is limited by
   double steps = 0.0;        // if the steps stay as the first one
   double nanoseconds = 0.0;  // per particle and step, of a few steps taken
   double hours = 0.0;

@@ -63,6 +63,12 @@ class Describer {
   void describe(const std::string& path, const K& key, Enum fresh) {
     add(path, key, "one of " + listed(choices<Enum>), std::string(choices<Enum>[static_cast<std::size_t>(fresh)]));
   }
+  template <class K, class T>
+  requires(std::is_enum_v<T> || std::is_same_v<T, bool>) void describe(const std::string& path, const K& key,
+                                                                       const std::optional<T>&) {
+    describe(path, key, T{});
+    rows_.back().default_value = "";
+  }
   template <class K>
   void describe(const std::string& path, const K& key, const std::string& fresh) {
     add(path, key, "a text", fresh);

@@ -204,10 +204,10 @@ inline constexpr auto keys<GaugeConfig> = std::tuple{
     Key{"fields", &GaugeConfig::fields, Unit::one, "what it records", any_value, required},
     Key{"from", &GaugeConfig::from, Unit::m, "the point; first end of the line; lower corner", any_value, required},
     Key{"to", &GaugeConfig::to, Unit::m, "last end of the line; upper corner"},
-    Key{"moves", &GaugeConfig::moves, Unit::one, "with the material; or fixed in space"},
+    Key{"moves", &GaugeConfig::moves, Unit::one, "with the material, if not given; or fixed in space; not of kind surface"},
     Key{"body", &GaugeConfig::body, Unit::one, "the body it watches; any if not given"},
-    Key{"axis", &GaugeConfig::axis, Unit::one, "normal of a plane; direction in which a surface is sought"},
-    Key{"side", &GaugeConfig::side, Unit::one, "which surface along that axis"}};
+    Key{"axis", &GaugeConfig::axis, Unit::one, "direction in which a surface is sought, of kind surface"},
+    Key{"side", &GaugeConfig::side, Unit::one, "which surface along that axis, of kind surface; the upper one if not given"}};
 
 template <>
 inline constexpr auto keys<MeasureConfig> =
@@ -282,7 +282,8 @@ inline constexpr auto keys<NumericsConfig> = std::tuple{
         Interval{1.0, 2.0, true, false}},
     Key{"first_step", &NumericsConfig::first_step, Unit::s, "0: from the initial state", non_negative},
     Key{"least_step", &NumericsConfig::least_step, Unit::s, "a smaller step stops the run", non_negative},
-    Key{"trimming", &NumericsConfig::trimming, Unit::one, "parts of a cell that are filled less than this get no particle",
+    Key{"trimming", &NumericsConfig::trimming, Unit::one,
+        "parts of a cell that are filled less than this get no particle; 0.05 in three dimensions and 0 in two if not given",
         Interval{0.0, 0.5}},
     Key{"seed", &NumericsConfig::seed, Unit::one, "of the random numbers", between(0, 2147483647)}};
 

@@ -94,6 +94,7 @@ class Run {
     }
     const Restored restored = restore_newest(options_.directory, s_, [&](const std::string& trouble) { log_.line(trouble); });
     log_.set_wall_time_before(restored.progress.wall_time);
+    std::filesystem::remove(options_.directory / "summary.json");  // it told of the part before
     log_.line(fmt::format("goes on from {}, step {}, time {:.6g} s", restored.file.string(), s_.step, s_.time));
     snapshot_times_ = restored.progress.snapshot_times;
     row_time_ = restored.progress.row_time;
@@ -180,7 +181,9 @@ class Run {
   void add_snapshot() {
     snapshot_times_.push_back(s_.time);
     write_snapshot(options_.directory, s_, snapshot_times_);
-    if (case_.output.grid) write_grid_snapshot(options_.directory, solid_grid, solid_image(s_), snapshot_times_);
+    if (case_.output.grid && !s_.bodies.empty())
+      write_grid_snapshot(options_.directory, solid_grid, solid_image(s_), snapshot_times_);
+    if (!s_.gas.empty()) write_grid_snapshot(options_.directory, gas_grid, gas_image(s_), snapshot_times_);
   }
 
   bool checkpoint_is_due(double before) const {
@@ -190,6 +193,7 @@ class Run {
            std::chrono::duration<double>(Clock::now() - last_checkpoint_time_).count() > o.checkpoint_wall;
   }
   void add_checkpoint() {
+    history_->synchronise();
     last_checkpoint_ =
         write_checkpoint(options_.directory, s_, {log_.wall_time(), history_->rows(), row_time_, snapshot_times_});
     last_checkpoint_time_ = Clock::now();
@@ -210,31 +214,36 @@ class Run {
         points_of(s_), clock_text((end_ - s_.time) / speed), megabytes_used()));
   }
 
+  /// What goes wrong from here on is told as well, but does not hide what went wrong before.
   void finish(RunResult& result) {
-    constexpr std::array endings = {"done", "failed", "interrupted"};
-    const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
-    Summary& summary = result.summary;
-    summary = {case_.title,
-               endings[static_cast<std::size_t>(result.ending)],
-               result.message,
-               s_.time,
-               s_.step,
-               count_points(s_),
-               log_.wall_time(),
-               static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds,
-               omp_get_max_threads(),
-               books_of(s_),
-               measures_.read(s_)};
-    log_.line(fmt::format("{} at step {}, time {:.6g} s{}{}", summary.ending, s_.step, s_.time,
-                          result.message.empty() ? "" : ": ", result.message));
     try {
-      write_summary(summary, options_.directory / "summary.json");
+      summarise(result);
+      write_summary(result.summary, options_.directory / "summary.json");
     } catch (const std::exception& error) {
       result.ending = Ending::failed;
       result.message += (result.message.empty() ? "" : "\n") + std::string(error.what());
+      result.summary.ending = word_of(result.ending), result.summary.message = result.message;
     }
+    log_.line(fmt::format("{} at step {}, time {:.6g} s{}{}", word_of(result.ending), s_.step, s_.time,
+                          result.message.empty() ? "" : ": ", result.message));
     if (result.ending != Ending::done || !case_.output.figures) return;
     for (const std::string& trouble : draw_figures(case_, s_, options_.directory)) log_.line(trouble);
+  }
+
+  static std::string word_of(Ending ending) {
+    constexpr std::array words = {"done", "failed", "interrupted"};
+    return words[static_cast<std::size_t>(ending)];
+  }
+
+  void summarise(RunResult& result) {
+    const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
+    Summary& summary = result.summary;
+    summary.title = case_.title, summary.ending = word_of(result.ending), summary.message = result.message;
+    summary.time = s_.time, summary.steps = s_.step, summary.particles = count_points(s_);
+    summary.wall_time = log_.wall_time(), summary.threads = omp_get_max_threads();
+    summary.particle_steps_per_second = static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds;
+    summary.books = books_of(s_);
+    summary.measures = measures_.read(s_);
   }
 
   const Case& case_;

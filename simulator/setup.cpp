@@ -61,7 +61,10 @@ struct Lattice {
   }
 };
 
-constexpr int samples_per_direction = 4;
+/// The part of a sub-cell below which it gets no particle.
+double trimming(const Case& c) {
+  return c.numerics.trimming.value_or(c.dimensions() == 3 ? 0.05 : 0.0);
+}
 
 std::vector<Site> fill(const Case& c, const BodyConfig& body, const Lattice& lattice) {
   std::vector<Site> sites;
@@ -77,7 +80,7 @@ std::vector<Site> fill(const Case& c, const BodyConfig& body, const Lattice& lat
           centre[static_cast<std::size_t>(a)] += 0.5 * lattice.spacing;
         }
         const double filled = filled_fraction(*body.shape, c.geometry, lower, upper, samples_per_direction);
-        if (filled > c.numerics.trimming) sites.push_back({index, centre, filled});
+        if (filled > trimming(c)) sites.push_back({index, centre, filled});
       }
   return sites;
 }
@@ -154,7 +157,7 @@ Body build(const Case& c, std::size_t number) {
   if (sites.empty())
     throw std::runtime_error(
         fmt::format("{}: the body gets no particles; its shape must fill at least {:.0f} % of a sub-cell of {:.4g} m",
-                    config.name, 100.0 * c.numerics.trimming, lattice.spacing));
+                    config.name, 100.0 * trimming(c), lattice.spacing));
   body.particles =
       Particles(D, history_columns(body.material), static_cast<int>(loads.size()) * D, config.strength.has_value());
   Particles& ps = body.particles;

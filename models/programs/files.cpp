@@ -17,7 +17,6 @@
 #include <vector>
 
 namespace brisance {
-namespace {
 
 using Path = std::filesystem::path;
 
@@ -28,6 +27,8 @@ void synchronise(const Path& path) {
   if (file >= 0) ::close(file);
   if (!done) throw std::system_error(error, std::generic_category());
 }
+
+namespace {
 
 void replace(const Path& path, const std::function<void(const Path&)>& write_to, bool durably) {
   const Path temporary = path.string() + ".part";

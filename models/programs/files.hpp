@@ -14,6 +14,9 @@ void replace_file(const std::filesystem::path& path, const std::function<void(co
 /// The same, on disk before it gets its name, so that a loss of power leaves the old file or the new one.
 void replace_file_durably(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write_to);
 
+/// Waits until what has been written to a file is on disk. Throws std::system_error.
+void synchronise(const std::filesystem::path& path);
+
 /// A text as a whole file, complete or not at all.
 void replace_file_by_text(const std::filesystem::path& path, std::string_view text);
 

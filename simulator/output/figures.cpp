@@ -50,8 +50,8 @@ std::string in_words(double x, std::string_view unit, int digits = 4) {
   const Scale scale = std::abs(x) < least ? Scale{1.0, std::string(unit)} : scale_for(unit, std::abs(x));
   return fmt::format("{:.{}g} {}", x * scale.per_si, digits, scale.unit);
 }
-std::string in_words(const Field& field) {
-  std::string name(field.name);
+std::string in_words(std::string_view field) {
+  std::string name(field);
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
@@ -111,6 +111,19 @@ void draw_energy(const Case& c, const Path& directory) {
   draw({c.title, {std::move(physical), std::move(numerical)}, 1, 900, 380}, directory / "energy.png");
 }
 
+void draw_gas_energy(const Case& c, const Simulation& s, const Path& directory) {
+  const CsvFile history = CsvFile::load(directory / "history.csv");
+  const std::vector<double> time = history.numbers("time", Unit::s);
+  const auto curve = [&](const std::string& column, const std::string& title, int colour) {
+    return Curve{title, {}, history.numbers(column, Unit::J), Mark::line, colour};
+  };
+  std::vector<Curve> curves = {curve("gas_energy", "total", 0), curve("gas_kinetic_energy", "kinetic", 1)};
+  int colour = 2;
+  for (const gas::Edge& edge : s.gas.edges) curves.push_back(curve(edge.name + "_energy", "through " + edge.name, colour++));
+  curves.push_back(curve("gas_residual_energy", "in no book", 7));
+  draw({c.title, {against_time("Energy of the gas", time, std::move(curves))}, 1, 900, 380}, directory / "energy.png");
+}
+
 /// Half a particle in units of gnuplot's point size, on a panel so many pixels wide that shows so many metres.
 double point_size(double width, double pixels, double metres) {
   constexpr double pixels_per_size = 7.0;
@@ -146,12 +159,37 @@ Scale fit(Figure& figure, const Window& w, double margin) {
   return scale;
 }
 
-void draw_field(const Case& c, const Simulation& s, const Path& directory) {
+/// The coloured tiles of a picture, before they have units.
+struct Tiles {
+  Curve points;
+  std::string field, unit;
+  bool mirrored = false;  // to be drawn a second time at negative x
+};
+
+Tiles tiles_of_gas(const Simulation& s, const std::string& name) {
+  const std::vector<gas::Field> known = gas::fields_of(s.gas);
+  const auto field = std::find_if(known.begin(), known.end(), [&](const gas::Field& f) { return f.name == name; });
+  const gas::Cells& cells = s.gas.cells;
+  Tiles tiles;
+  tiles.field = field->name, tiles.unit = field->unit;
+  tiles.mirrored = s.geometry == Geometry::axisymmetric && cells.lower[0] == 0;
+  const int slice = (cells.lower[2] + cells.upper[2]) / 2;
+  gas::for_each_cell(s.gas, [&](const gas::CellPlace& at) {
+    if (s.dimensions() == 3 && cells.index(at.block, at.cell)[2] != slice) return;
+    const Vector x = cells.centre(at.block, at.cell);
+    tiles.points.x.push_back(x[0]), tiles.points.y.push_back(x[1]), tiles.points.values.push_back(field->read(s.gas, at, 0));
+  });
+  tiles.points.half_widths.assign(tiles.points.x.size(), 0.5 * cells.cell_size);
+  tiles.points.half_heights = tiles.points.half_widths;
+  return tiles;
+}
+
+Tiles tiles_of_solids(const Case& c, const Simulation& s) {
   const Field* field = find_field(c.output.figure_field);
   if (!field) throw std::runtime_error(fmt::format("output.figure_field: there is no field \"{}\"", c.output.figure_field));
   const double h = s.grid.cell_size;
-  const bool axisymmetric = s.geometry == Geometry::axisymmetric;
-  Curve points;
+  Tiles tiles;
+  Curve& points = tiles.points;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Body& body : s.bodies)
     for (int p = 0; p < body.particles.size; ++p) {
@@ -165,8 +203,18 @@ void draw_field(const Case& c, const Simulation& s, const Path& directory) {
       nearest = std::min(nearest, std::abs(x[0]));
     }
   if (points.x.empty()) throw std::runtime_error("no particle is in the picture");
-  // The other half, unless there is a hole between the two.
-  if ((axisymmetric || is_mirrored(s, 0)) && nearest < h)
+  tiles.field = field->name, tiles.unit = field->unit;
+  // Not if there is a hole between the two halves.
+  tiles.mirrored = (s.geometry == Geometry::axisymmetric || is_mirrored(s, 0)) && nearest < h;
+  return tiles;
+}
+
+void draw_field(const Case& c, const Simulation& s, const Path& directory) {
+  const double h = s.grid.cell_size;
+  const bool axisymmetric = s.geometry == Geometry::axisymmetric;
+  Tiles tiles = s.gas.empty() ? tiles_of_solids(c, s) : tiles_of_gas(s, c.output.figure_field);
+  Curve& points = tiles.points;
+  if (tiles.mirrored)
     for (std::size_t i = 0, count = points.x.size(); i < count; ++i) {
       points.x.push_back(-points.x[i]);
       for (std::vector<double>* same : {&points.y, &points.values, &points.half_widths, &points.half_heights})
@@ -177,11 +225,11 @@ void draw_field(const Case& c, const Simulation& s, const Path& directory) {
     for (const double side : {1.0, -1.0})
       window.add(points.x[i] + side * points.half_widths[i], points.y[i] + side * points.half_heights[i]);
   Figure figure;
-  figure.title = fmt::format("{}: {} at {}", c.title, in_words(*field), in_words(s.time, "s"));
+  figure.title = fmt::format("{}: {} at {}", c.title, in_words(tiles.field), in_words(s.time, "s"));
   Panel panel;
   panel.x_label = axisymmetric ? "r" : "x", panel.y_label = axisymmetric ? "z" : "y";
-  const Scale values = scale_for(field->unit, largest(points.values));
-  panel.scale_label = label(in_words(*field), values);
+  const Scale values = scale_for(tiles.unit, largest(points.values));
+  panel.scale_label = label(in_words(tiles.field), values);
   figure.panels.push_back(panel);
   const Scale lengths = fit(figure, window, 0.5 * h);
   // Tiles reach a pixel beyond their edges, so that no light shines through between them.
@@ -197,19 +245,19 @@ void draw_field(const Case& c, const Simulation& s, const Path& directory) {
 /// The fields of a figure along its line, one below the other.
 void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, const Path& directory) {
   const LineOut computed = line_out(s, config);
-  if (computed.place.empty()) throw std::runtime_error(fmt::format("figure {}: no particle is near its line", config.name));
+  if (computed.place.empty()) throw std::runtime_error(fmt::format("figure {}: nothing is near its line", config.name));
   const LineOut reference = config.reference.empty() ? LineOut{} : read_reference(config);
   const Scale lengths = scale_for("m", std::max(largest(computed.place), largest(reference.place)));
   Figure figure{fmt::format("{}: {} at {}", c.title, config.name, in_words(s.time, "s")), {}, 1, 900, 280};
   for (std::size_t f = 0; f < config.fields.size(); ++f) {
-    const Field* field = find_field(config.fields[f]);
-    const Scale scale = scale_for(field->unit, largest(computed.values[f]));
+    const std::string& field = config.fields[f];
+    const Scale scale = scale_for(unit_of_field(field), largest(computed.values[f]));
     const auto curve = [&](const std::string& title, const LineOut& from, Mark mark, int colour) {
       return Curve{title, scaled(from.place, lengths.per_si), scaled(from.values[f], scale.per_si), mark, colour};
     };
     Panel panel;
     panel.x_label = label(computed.coordinate, lengths);
-    panel.y_label = label(in_words(*field) + (field->components > 1 ? " along " + computed.coordinate : ""), scale);
+    panel.y_label = label(in_words(field) + (field == "velocity" ? " along " + computed.coordinate : ""), scale);
     legend_beside(panel);
     panel.curves.push_back(curve("computed", computed, Mark::dots, 0));
     panel.curves.back().size = 0.3;
@@ -285,8 +333,8 @@ std::vector<std::string> draw_figures(const Case& c, const Simulation& s, const 
       troubles.push_back(fmt::format("a figure is missing: {}", error.what()));
     }
   };
-  attempt([&] { draw_energy(c, directory); });
-  attempt([&] { draw_field(c, s, directory); });
+  attempt([&] { s.gas.empty() ? draw_energy(c, directory) : draw_gas_energy(c, s, directory); });
+  if (s.dimensions() > 1) attempt([&] { draw_field(c, s, directory); });
   std::vector<std::size_t> drawn;
   for (const MeasureConfig& measure : c.measures) {
     const std::size_t body = body_of(measure, s);

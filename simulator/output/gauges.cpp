@@ -81,7 +81,7 @@ Gauges::Gauges(const Case& c, const Simulation& start) : dimensions_(start.dimen
       gauge.fields.push_back(field);
     }
     if (config.kind == GaugeKind::point || config.kind == GaugeKind::line) gauge.places = samples(config, start.grid.cell_size);
-    if (config.moves && !gauge.places.empty()) {
+    if (config.moves.value_or(true) && !gauge.places.empty()) {
       for (const Vector& place : gauge.places) {
         Followed nearest{0, 0};
         double least = std::numeric_limits<double>::infinity();
@@ -93,7 +93,7 @@ Gauges::Gauges(const Case& c, const Simulation& start) : dimensions_(start.dimen
         gauge.followed.push_back(nearest);
       }
     }
-    if (config.moves && config.kind == GaugeKind::plane)
+    if (config.moves.value_or(true) && config.kind == GaugeKind::plane)
       for_each_particle(start, config, [&](std::size_t b, int p) {
         const Particles& ps = start.bodies[b].particles;
         if (within(ParticleView(ps, p).position(), config, dimensions_))
@@ -177,16 +177,16 @@ Gauges::Values Gauges::over_plane(const Gauge& gauge, const Simulation& s) const
   for_each_particle(s, gauge.config, [&](std::size_t b, int p) {
     const Particles& ps = s.bodies[b].particles;
     const ParticleView particle(ps, p);
-    const bool counts = gauge.config.moves ? ids.contains(ps.id[static_cast<std::size_t>(p)])
-                                           : within(particle.position(), gauge.config, dimensions_);
+    const bool counts = gauge.config.moves.value_or(true) ? ids.contains(ps.id[static_cast<std::size_t>(p)])
+                                                          : within(particle.position(), gauge.config, dimensions_);
     if (counts) mean.add(all_fields_of(gauge, particle), particle.volume());
   });
   return mean.value(components(gauge));
 }
 
 Gauges::Values Gauges::at_surface(const Gauge& gauge, const Simulation& s) const {
-  const auto axis = static_cast<std::size_t>(gauge.config.axis);
-  const double outward = gauge.config.side == Side::above ? 1.0 : -1.0;
+  const auto axis = static_cast<std::size_t>(*gauge.config.axis);
+  const double outward = gauge.config.side.value_or(Side::above) == Side::above ? 1.0 : -1.0;
   Vector direction{};
   direction[axis] = outward;
   double farthest = -std::numeric_limits<double>::infinity();
@@ -221,9 +221,9 @@ std::vector<double> Gauges::read(const Simulation& s) const {
         break;
       default:
         for (std::size_t i = 0; i < gauge.places.size(); ++i)
-          add(!s.gas.empty()       ? of_gas(gauge, s, gauge.places[i])
-              : gauge.config.moves ? of_particle(gauge, s, gauge.followed[i])
-                                   : around(gauge, s, gauge.places[i]));
+          add(!s.gas.empty()                      ? of_gas(gauge, s, gauge.places[i])
+              : gauge.config.moves.value_or(true) ? of_particle(gauge, s, gauge.followed[i])
+                                                  : around(gauge, s, gauge.places[i]));
     }
   return row;
 }

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "models/programs/files.hpp"
+#include "simulator/gas/fields.hpp"
 #include "simulator/solid/motion.hpp"
 #include "simulator/solid/nodes.hpp"
 #include "simulator/solid/transfer.hpp"
@@ -185,6 +186,30 @@ ImageData solid_image(Simulation& s) {
       }
     });
     for (ImageField* f : {&masses, &velocities, &forces}) image.point_fields.push_back(std::move(*f));
+  }
+  return image;
+}
+
+ImageData gas_image(const Simulation& s) {
+  const gas::Cells& cells = s.gas.cells;
+  ImageData image;
+  image.spacing = {cells.cell_size, cells.cell_size, cells.cell_size};
+  std::array<std::size_t, 3> count{1, 1, 1};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(cells.dimensions); ++a) {
+    image.lower[a] = cells.lower[a], image.upper[a] = cells.upper[a];
+    count[a] = static_cast<std::size_t>(cells.upper[a] - cells.lower[a]);
+  }
+  for (const gas::Field& field : gas::fields_of(s.gas)) {
+    const std::size_t components = field.components > 1 ? 3 : 1;  // a vector has three for ParaView
+    ImageField out{field.name, static_cast<int>(components), std::vector<double>(components * image.cells(), 0.0)};
+    gas::for_each_cell(s.gas, [&](const gas::CellPlace& at) {
+      std::array<int, 3> i = cells.index(at.block, at.cell);
+      std::size_t number = 0;
+      for (std::size_t a = 3; a-- > 0;) number = number * count[a] + static_cast<std::size_t>(i[a] - image.lower[a]);
+      for (int a = 0; a < field.components; ++a)
+        out.values[components * number + static_cast<std::size_t>(a)] = field.read(s.gas, at, a);
+    });
+    image.cell_fields.push_back(std::move(out));
   }
   return image;
 }

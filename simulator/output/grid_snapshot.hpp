@@ -47,6 +47,11 @@ std::string grid_snapshot_name(const std::string& name, std::size_t number);
 /// are overwritten, which every step makes anew. Throws std::runtime_error if the box is too large to be written.
 ImageData solid_image(Simulation& s);
 
+/// The fields of the gas in the cells of its box.
+ImageData gas_image(const Simulation& s);
+
+/// Under which the gas's image stands in the directory of a run.
+inline const std::string gas_grid = "gas";
 /// Under which the solid's image stands in the directory of a run.
 inline const std::string solid_grid = "solid_grid";
 

@@ -196,6 +196,14 @@ void History::keep(const std::string& header, std::int64_t rows) {
   replace_file_by_text(path_, text);
 }
 
+void History::synchronise() const {
+  try {
+    brisance::synchronise(path_);
+  } catch (const std::system_error& error) {
+    fail(path_, error.code().value());
+  }
+}
+
 void History::add_row(const Simulation& s, const Books& books, const std::vector<double>& gauges) {
   std::string row = fmt::format("{},{}", s.time, s.last_time_step);
   for (const BookEntry& entry : entries_of(books)) row += fmt::format(",{}", entry.value);

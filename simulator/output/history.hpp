@@ -1,5 +1,6 @@
 #pragma once
-// history.csv: energies, momenta and gauges against time. Rows are appended and flushed, so that they survive a kill.
+// history.csv: energies, momenta and gauges against time. Rows are appended and flushed, so that they survive a kill; and what
+// a checkpoint counts on, a loss of power.
 
 #include <filesystem>
 #include <fstream>
@@ -57,6 +58,8 @@ class History {
 
   void add_row(const Simulation& s, const Books& books, const std::vector<double>& gauges);
   std::int64_t rows() const { return rows_; }
+  /// The rows are on disk afterwards: a checkpoint may count on them. Throws std::runtime_error.
+  void synchronise() const;
 
  private:
   void keep(const std::string& header, std::int64_t rows);

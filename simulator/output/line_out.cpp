@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "models/input/csv.hpp"
 #include "models/input/diagnostics.hpp"
+#include "simulator/gas/fields.hpp"
 #include "simulator/output/fields.hpp"
 
 namespace brisance::simulator {
@@ -28,37 +30,78 @@ struct Line {
   int axis = -1;  // along which it runs
 };
 
-}  // namespace
+using Rows = std::vector<std::pair<double, std::vector<double>>>;
 
-LineOut line_out(const Simulation& s, const FigureConfig& figure) {
-  const Line line(figure);
+/// Where along the line something is, if it is within half a cell of it.
+std::optional<double> place_on(const Line& line, const Vector& x, double cell_size) {
+  const Vector r = x - line.from;
+  const double along = dot(r, line.direction);
+  const Vector across = r - along * line.direction;
+  constexpr double rounding = 1.0 + 1e-9;  // cells stand half a cell beside a line on their edges
+  if (along < 0.0 || along > line.length || dot(across, across) > 0.25 * cell_size * cell_size * rounding) return std::nullopt;
+  return line.axis < 0 ? along : x[static_cast<std::size_t>(line.axis)];
+}
+
+Rows rows_of_gas(const gas::Gas& gas, const FigureConfig& figure, const Line& line) {
+  std::vector<gas::Field> fields;
+  const std::vector<gas::Field> known = gas::fields_of(gas);
+  for (const std::string& name : figure.fields)
+    fields.push_back(*std::find_if(known.begin(), known.end(), [&](const gas::Field& f) { return f.name == name; }));
+  Rows rows;
+  gas::for_each_cell(gas, [&](const gas::CellPlace& at) {
+    const std::optional<double> place = place_on(line, gas.cells.centre(at.block, at.cell), gas.cells.cell_size);
+    if (!place) return;
+    std::vector<double> values;
+    for (const gas::Field& field : fields) {
+      double value = 0.0;
+      for (int a = 0; a < field.components; ++a)
+        value += field.read(gas, at, a) * (field.name == "velocity" ? line.direction[static_cast<std::size_t>(a)] : 1.0);
+      values.push_back(value);
+    }
+    rows.emplace_back(*place, std::move(values));
+  });
+  return rows;
+}
+
+Rows rows_of_solids(const Simulation& s, const FigureConfig& figure, const Line& line) {
   std::vector<const Field*> fields;
   for (const std::string& name : figure.fields) fields.push_back(find_field(name));
-  std::vector<std::pair<double, std::vector<double>>> rows;
+  Rows rows;
   for (const Body& body : s.bodies) {
     if (!figure.body.empty() && figure.body != body.name) continue;
     for (const std::uint32_t p : body.bins.order) {
       const ParticleView particle(body.particles, static_cast<int>(p));
-      const Vector x = particle.position(), r = x - line.from;
-      const double along = dot(r, line.direction);
-      const Vector across = r - along * line.direction;
-      if (along < 0.0 || along > line.length || dot(across, across) > 0.25 * s.grid.cell_size * s.grid.cell_size) continue;
+      const std::optional<double> place = place_on(line, particle.position(), s.grid.cell_size);
+      if (!place) continue;
       std::vector<double> values;
       for (const Field* field : fields) {
         Vector v{};
         field->read(particle, v.data());
         values.push_back(field->components == 1 ? v[0] : dot(v, line.direction));
       }
-      rows.emplace_back(line.axis < 0 ? along : x[static_cast<std::size_t>(line.axis)], std::move(values));
+      rows.emplace_back(*place, std::move(values));
     }
   }
+  return rows;
+}
+
+}  // namespace
+
+LineOut line_out(const Simulation& s, const FigureConfig& figure) {
+  const Line line(figure);
+  Rows rows = s.gas.empty() ? rows_of_solids(s, figure, line) : rows_of_gas(s.gas, figure, line);
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  LineOut result{line.coordinate(), {}, std::vector<std::vector<double>>(fields.size())};
+  LineOut result{line.coordinate(), {}, std::vector<std::vector<double>>(figure.fields.size())};
   for (const auto& [place, values] : rows) {
     result.place.push_back(place);
-    for (std::size_t f = 0; f < fields.size(); ++f) result.values[f].push_back(values[f]);
+    for (std::size_t f = 0; f < values.size(); ++f) result.values[f].push_back(values[f]);
   }
   return result;
+}
+
+std::string unit_of_field(const std::string& name) {
+  if (const Field* field = find_field(name)) return std::string(field->unit);
+  return name == "sound_speed" ? "m/s" : "1";
 }
 
 LineOut read_reference(const FigureConfig& figure) {
@@ -68,7 +111,8 @@ LineOut read_reference(const FigureConfig& figure) {
   bool any = false;
   for (const std::string& name : figure.fields) {
     const bool given = csv.has(name);
-    result.values.push_back(given ? csv.numbers(name, Unit{find_field(name)->unit}) : std::vector<double>{});
+    const std::string unit = unit_of_field(name);
+    result.values.push_back(given ? csv.numbers(name, Unit{unit}) : std::vector<double>{});
     any = any || given;
   }
   if (!any)

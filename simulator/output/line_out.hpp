@@ -15,9 +15,12 @@ struct LineOut {
   std::vector<std::vector<double>> values;  // SI, of each field of the figure at each place; empty if there are none
 };
 
-/// The particles no farther than half a cell from the line, in the order of their places. Of a vector the component along the
-/// line.
+/// The particles no farther than half a cell from the line, or the cells of gas that it crosses, in the order of their places.
+/// Of a vector the component along the line.
 LineOut line_out(const Simulation& s, const FigureConfig& figure);
+
+/// The unit of a field of solids or gas.
+std::string unit_of_field(const std::string& name);
 
 /// The columns of the figure's reference that are named as the coordinate and as its fields. Throws InputError if the file
 /// cannot be read, or has no coordinate or none of the fields.

@@ -23,8 +23,10 @@ bool is_output_of_a_run(const std::string& name) {
   if (std::find(whole.begin(), whole.end(), name) != whole.end()) return true;
   return name.ends_with(".part") || name.ends_with("_particles.hdf.series") ||
          (name.ends_with(".hdf") && name.find("_particles_") != std::string::npos) || name == solid_grid + ".pvd" ||
-         (name.starts_with(solid_grid + "_") && name.ends_with(".vti")) ||
-         ((name.starts_with("profile_") || name.starts_with("line_")) && name.ends_with(".png"));
+         (name.starts_with(solid_grid + "_") && name.ends_with(".vti")) || name == gas_grid + ".pvd" ||
+         (name.starts_with(gas_grid + "_") && name.ends_with(".vti")) ||
+         ((name.starts_with("profile_") || name.starts_with("line_")) && name.ends_with(".png")) ||
+         (name.starts_with("measured_profile_") && name.ends_with(".csv"));
 }
 
 std::string text_of(const fs::path& path) {
@@ -39,16 +41,31 @@ bool is_unfinished(const fs::path& directory) {
   return has_checkpoint(directory) && !ended;
 }
 
+using Files = std::vector<std::pair<std::string, std::string>>;  // name, content
+
+bool holds(const fs::path& directory, const Files& files) {
+  return std::all_of(files.begin(), files.end(),
+                     [&](const auto& file) { return text_of(directory / file.first) == file.second; });
+}
+
 }  // namespace
 
 void prepare_directory(const fs::path& directory, const Case& c, bool overwrite) {
-  const std::string text = write_case(c);
+  // What the case reads comes along, so that the directory can be moved and the run resumed.
+  Case own = c;
+  Files profiles;
+  for (MeasureConfig& measure : own.measures) {
+    if (measure.profile.empty()) continue;
+    profiles.emplace_back(fmt::format("measured_profile_{}.csv", profiles.size()), text_of(measure.profile));
+    measure.profile = profiles.back().first;
+  }
+  const std::string text = write_case(own);
   if (fs::exists(directory) && !fs::is_directory(directory))
     throw std::invalid_argument(fmt::format("{}: is a file; a run needs a directory", directory.string()));
   if (fs::exists(directory) && !fs::is_empty(directory) && !overwrite) {
     const fs::path earlier = directory / "case.toml";
-    const std::string why = !fs::exists(earlier)       ? "holds files that are no run"
-                            : text_of(earlier) != text ? "holds a run of another case"
+    const std::string why = !fs::exists(earlier)                                      ? "holds files that are no run"
+                            : text_of(earlier) != text || !holds(directory, profiles) ? "holds a run of another case"
                             : is_unfinished(directory)
                                 ? "holds a run that has not come to its end (brisance resume goes on with it)"
                                 : "";
@@ -61,6 +78,7 @@ void prepare_directory(const fs::path& directory, const Case& c, bool overwrite)
   if (error) throw std::runtime_error(fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
   for (const fs::directory_entry& entry : fs::directory_iterator(directory))
     if (entry.is_regular_file() && is_output_of_a_run(entry.path().filename().string())) fs::remove(entry.path());
+  for (const auto& [name, profile] : profiles) replace_file_by_text(directory / name, profile);
   replace_file_by_text(directory / "case.toml", text);
 }
 

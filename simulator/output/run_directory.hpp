@@ -10,8 +10,9 @@
 
 namespace brisance::simulator {
 
-/// Makes the directory of a new run and writes case.toml. Throws std::invalid_argument if it holds something else than an
-/// earlier run of the same case, unless that may be overwritten; what does not look like the output of a run is never removed.
+/// Makes the directory of a new run and writes case.toml, with the measured profiles that it names beside it. Throws
+/// std::invalid_argument if it holds something else than an earlier run of the same case, unless that may be overwritten; what
+/// does not look like the output of a run is never removed.
 void prepare_directory(const std::filesystem::path& directory, const Case& c, bool overwrite);
 
 /// log.txt: lines with the time since the start. It never throws: what the log cannot hold is no reason to end a run.

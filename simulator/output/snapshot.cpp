@@ -87,7 +87,8 @@ std::vector<std::string> damaged_snapshots(const std::filesystem::path& director
   std::vector<std::string> names, troubles;
   for (std::size_t i = 0; i < count; ++i) {
     for (const BodyConfig& body : c.bodies) names.push_back(snapshot_name(body.name, i));
-    if (c.output.grid) names.push_back(grid_snapshot_name(solid_grid, i));
+    if (c.gas) names.push_back(grid_snapshot_name(gas_grid, i));
+    if (c.output.grid && !c.bodies.empty()) names.push_back(grid_snapshot_name(solid_grid, i));
   }
   for (const std::string& name : names) try {
       require_seal(directory / name);

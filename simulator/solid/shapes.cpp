@@ -104,9 +104,8 @@ Bounds bounds(const Shape& shape) {
   return std::visit([](const auto& form) { return bounds_of(form); }, shape.form);
 }
 
-double filled_fraction(const Shape& shape, Geometry geometry, const Vector& lower, const Vector& upper,
-                       int samples_per_direction) {
-  const int n = samples_per_direction, n_z = geometry == Geometry::three_dimensional ? n : 1;
+double filled_fraction(const Shape& shape, Geometry geometry, const Vector& lower, const Vector& upper, int samples) {
+  const int n = samples, n_z = geometry == Geometry::three_dimensional ? n : 1;
   const auto middle = [&](std::size_t k, int i) { return lower[k] + (upper[k] - lower[k]) * (i + 0.5) / n; };
   double all = 0.0, filled = 0.0;
   for (int k = 0; k < n_z; ++k)

@@ -16,9 +16,12 @@ struct Bounds {
 };
 Bounds bounds(const Shape& shape);
 
-/// Filled part of the volume of a box, from the middles of samples_per_direction equal parts along each direction of the
+/// Places in a sub-cell along each direction where particles are made: how much of it a shape fills is known to a part in the
+/// square (cube) of that.
+inline constexpr int samples_per_direction = 4;
+
+/// Filled part of the volume of a box, from the middles of `samples` equal parts along each direction of the
 /// geometry. Exactly 1 or 0 if all of them are inside or outside. In the axisymmetric geometry the box is a ring, 0 <= r.
-double filled_fraction(const Shape& shape, Geometry geometry, const Vector& lower, const Vector& upper,
-                       int samples_per_direction);
+double filled_fraction(const Shape& shape, Geometry geometry, const Vector& lower, const Vector& upper, int samples);
 
 }  // namespace brisance::simulator

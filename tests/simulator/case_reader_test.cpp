@@ -130,6 +130,12 @@ from = [0, 0, 0]
 to = [0, "1 mm", 0]
 moves = false
 body = "rod"
+[[gauge]]
+name = "face"
+kind = "surface"
+fields = ["velocity"]
+from = [0, 0, 0]
+to = [0, "1 mm", 0]
 axis = "z"
 side = "below"
 [[measure]]
@@ -211,8 +217,10 @@ TEST(CaseReader, ReadsEveryKey) {
   EXPECT_EQ(c.loads.at(1).traction, (Vector{0, 1e6, 0}));
   EXPECT_EQ(c.loads.at(1).amplitude.value()(0.0), 0.5);
   EXPECT_EQ(c.gauges.at(0).fields, (std::vector<std::string>{"velocity", "stress_xx"}));
-  EXPECT_FALSE(c.gauges.at(0).moves);
-  EXPECT_EQ(c.gauges.at(0).side, Side::below);
+  EXPECT_EQ(c.gauges.at(0).moves, false);
+  EXPECT_FALSE(c.gauges.at(0).axis || c.gauges.at(1).moves);
+  EXPECT_EQ(c.gauges.at(1).axis, Axis::z);
+  EXPECT_EQ(c.gauges.at(1).side, Side::below);
   EXPECT_EQ(c.measures.at(0).measured, 0.004);
   EXPECT_EQ(c.measures.at(1).profile, folder() / "profile.csv");
   EXPECT_EQ(c.figures.at(0).fields, (std::vector<std::string>{"velocity", "pressure"}));
@@ -356,6 +364,30 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
        "side = \"above\"\n[[figure]]\nname = \"a\"\nkind = \"line\"\nfrom = [0, 0]\nto = [0, 1]\nfields = [\"density\"]\n"
        "reference = \"reference.csv\"",
        "reference.csv: none of its columns is drawn; at least one of density is required"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"point\"\nfrom = [0, 0]\nfields = [\"pressure\"]\naxis = \"y\"",
+       "gauge.0.axis: it would be ignored: the kind is not surface"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"plane\"\nfrom = [0, 0]\nto = [1, 1]\nfields = "
+       "[\"pressure\"]\nside = "
+       "\"below\"",
+       "gauge.0.side: it would be ignored: the kind is not surface"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"surface\"\nfrom = [0, 0]\nto = [1, 1]\nfields = [\"pressure\"]",
+       "gauge.0.axis: missing: the direction in which the surface is sought"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"surface\"\naxis = \"y\"\nmoves = true\nfrom = [0, 0]\nto = [1, "
+       "1]\nfields = [\"pressure\"]",
+       "gauge.0.moves: it would be ignored: a surface is where the material ends"},
+      {"[[boundary]]", "[numerics]\ntrimming = 0.05\n[[boundary]]",
+       "numerics.trimming: it would be ignored: in two dimensions a sub-cell is sampled in 16 places; give 0, or 0.0625 and "
+       "more"},
+      {"[[boundary]]", "[output]\nfigure_field = \"velocity\"\n[[boundary]]",
+       "output.figure_field: \"velocity\" cannot be drawn; it must be one of stress_xx,"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[boundary]]\nname = \"piston\"\nkind = \"velocity\"\naxis = \"y\"\nposition = \"25.4 mm\"\nside = "
+       "\"below\"\nvelocity = \"-400 m/s\"",
+       "boundary.1.velocity: at 6.2e-05 s it is 0.0006 m from \"rigid_wall_y_above\"; boundaries must stay 0.000635 m apart"},
       {"side = \"above\"\n", "side = \"above\"\n[[load]]\nregion = { sphere = { centre = [0, 0], radius = 1 } }",
        "load.0: nothing acts; give pressure or traction"},
       {"temperature = \"295 K\"", "temperature = \"295 K\"\nporosity = { law = \"constant\", value = 0.01 }",

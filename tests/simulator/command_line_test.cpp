@@ -132,8 +132,10 @@ TEST(CheckCommand, TellsSizeAndTimeAndWarnsOfThinBodies) {
   EXPECT_EQ(fine.code, done) << fine.err;
   EXPECT_TRUE(contains(fine.out, "240 particles")) << fine.out;
   EXPECT_FALSE(contains(fine.out, "warning")) << fine.out;
+  EXPECT_TRUE(contains(fine.out, "limited by the speed of waves")) << fine.out;
+  EXPECT_TRUE(contains(call({"check", file, "--set", "numerics.first_step=1 ns"}).out, "limited by numerics.first_step"));
   const Answer coarse = call({"check", file, "--set", "cell_size=3.2 mm", "--set", "solid.0.velocity=[0, -9000]"});
-  EXPECT_TRUE(contains(coarse.out, "warning: bar: the diameter is 2 cells")) << coarse.out;
+  EXPECT_TRUE(contains(coarse.out, "it is 2 cells thick, fewer than 4")) << coarse.out;
   EXPECT_TRUE(contains(coarse.out, "faster than sound")) << coarse.out;
 }
 

@@ -441,7 +441,7 @@ TEST(Gauges, SeeALinearFieldWhereTheyAre) {
       directory,
       "[[gauge]]\nname = \"fixed\"\nkind = \"point\"\nmoves = false\nfields = [\"temperature\"]\nfrom = [\"1.6 mm\", \"6 "
       "mm\"]\n"
-      "[[gauge]]\nname = \"slab\"\nkind = \"plane\"\naxis = \"y\"\nmoves = false\nfields = [\"temperature\"]\nfrom = [0, \"4 "
+      "[[gauge]]\nname = \"slab\"\nkind = \"plane\"\nmoves = false\nfields = [\"temperature\"]\nfrom = [0, \"4 "
       "mm\"]\n"
       "to = [\"4 mm\", \"5.6 mm\"]\n"
       "[[gauge]]\nname = \"top\"\nkind = \"surface\"\naxis = \"y\"\nside = \"below\"\nfields = [\"position\"]\nfrom = [0, 0]\n"

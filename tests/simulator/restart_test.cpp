@@ -117,6 +117,47 @@ TEST(Restart, AFinishedRunGoesOnUntilALaterTime) {
   EXPECT_NEAR(longer.time, later, 1e-12 * later);
 }
 
+/// What the case reads has come along with it.
+TEST(Restart, WorksInADirectoryThatWasMoved) {
+  const fs::path directory = scratch();
+  write_text(directory / "measured.csv", "radius [mm],height [mm]\n3.2,1\n3.2,9\n");
+  const fs::path file =
+      write_text(directory / "bar.toml",
+                 small_bar("[[measure]]\nkind = \"profile_error\"\nprofile = \"measured.csv\"\n[output]\nfigures = false\n"));
+  const Case c = read_case(file);
+  prepare_directory(directory / "run", c, false);
+  Simulation s = set_up(c);
+  ASSERT_EQ(run(c, s, {directory / "run", {}, 10}).ending, Ending::interrupted);
+  const fs::path elsewhere = directory.string() + "_moved";
+  fs::remove_all(elsewhere);
+  fs::rename(directory / "run", elsewhere);
+  fs::remove_all(directory);
+  const Case moved = read_case(elsewhere / "case.toml");
+  Simulation again = set_up(moved);
+  const RunResult result = resume(moved, again, {elsewhere, {}, 10});
+  EXPECT_EQ(result.ending, Ending::interrupted) << result.message;
+  EXPECT_EQ(again.step, 20);
+  EXPECT_EQ(result.summary.measures.at(0).name, "profile_error");
+}
+
+/// Of a run that goes on after its end and is killed, no summary says that it is done.
+TEST(Restart, ASummaryTellsOfNoOtherRun) {
+  const Fixture f;
+  const fs::path directory = f.fresh("run");
+  Simulation s = set_up(f.c);
+  ASSERT_EQ(run(f.c, s, {directory, {}, 5}).ending, Ending::interrupted);
+  ASSERT_TRUE(fs::exists(directory / "summary.json"));
+  fs::remove(directory / "history.csv");
+  fs::create_directory(directory / "summary.json.part");  // it cannot be written
+  Simulation again = set_up(f.c);
+  const RunResult result = resume(f.c, again, {directory, {}, 5});
+  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_NE(result.message.find("history.csv"), std::string::npos) << result.message;
+  EXPECT_NE(result.message.find("summary.json: cannot be written"), std::string::npos) << result.message;
+  EXPECT_EQ(result.summary.ending, "failed");
+  EXPECT_FALSE(fs::exists(directory / "summary.json"));
+}
+
 TEST(Checkpoint, ATruncatedOneIsFoundOutAndTheOlderIsUsed) {
   const Fixture f;
   const fs::path directory = f.fresh("run");
