@@ -403,7 +403,11 @@ class CaseReader {
   }
 
   /// Figures are coloured by one number of each particle.
-  void check_figure_field(TableReader& in, const std::string& field) {
+  void check_figure_field(TableReader& in, std::string& field) {
+    if (case_.gas) {
+      if (!in.has("figure_field")) field = "density";
+      return check_gas_fields(in, {field});
+    }
     std::vector<std::string_view> scalars;
     for (const std::string_view name : gauge_fields)
       if (name != "position" && name != "velocity") scalars.push_back(name);

@@ -83,16 +83,23 @@ double largest_step(const Gas& gas, double courant) {
 Outcome advance(Gas& gas, double dt, Domain& domain) {
   clear_step(gas.passages);
   advance_half_step(gas, dt);
-  share_half_step(gas, domain);
+  share_half_step(gas, dt, domain);
   const bool good = lagrangian_phase(gas, dt);
   if (domain.maximum(good ? 0.0 : 1.0) > 0.0) return Outcome::rejected;
   // The order of the axes turns around with every step, so that none is always first.
   const int D = gas.dimensions();
+  const std::int64_t flattened = gas.flattened;
+  Vector moved{dt, dt, dt};
   for (int n = 0; n < D; ++n) {
-    share_moved(gas, gas.time + dt, domain);
-    const bool held = sweep(gas, gas.step % 2 == 0 ? n : D - 1 - n);
-    if (domain.maximum(held ? 0.0 : 1.0) > 0.0) return Outcome::rejected;
+    const int axis = gas.step % 2 == 0 ? n : D - 1 - n;
+    share_moved(gas, gas.time + dt, moved, domain);
+    const bool held = sweep(gas, axis);
+    if (domain.maximum(held ? 0.0 : 1.0) > 0.0) {
+      gas.flattened = flattened;
+      return Outcome::rejected;
+    }
     std::swap(gas.moved, gas.next);
+    moved[static_cast<std::size_t>(axis)] = 0.0;
   }
   settle(gas);
   book_step(gas.passages);

@@ -17,9 +17,18 @@ void copy(CellSet& set, const std::vector<Ghost>& ghosts, int turned) {
       set.cell(index(g.block), q, g.cell) = sign * set.cell(index(g.source_block), q, g.source_cell);
   }
 }
-void clear(CellSet& set, const std::vector<Ghost>& ghosts) {
-  for (int q = 0; q < set.quantities(); ++q)
-    for (const Ghost& g : ghosts) set.cell(index(g.block), q, g.cell) = 0.0;
+/// A column that rests on a wall, or hangs from one, goes on beyond it: the pressure in the mirror less the weight between.
+void continue_column(Gas& gas, const GhostSide& side) {
+  const double head = side.inward * gas.gravity[static_cast<std::size_t>(side.axis)] * gas.cells.cell_size;
+  if (head == 0.0) return;
+  CellSet& set = gas.primitive;
+  for (std::size_t k = 0; k < side.mirrored.size(); ++k) {
+    const Ghost &mirrored = side.mirrored[k], &nearest = side.nearest[k];
+    const double next = set.cell(index(nearest.source_block), Primitive::density, nearest.source_cell);
+    const double there = set.cell(index(mirrored.source_block), Primitive::density, mirrored.source_cell);
+    const bool first = mirrored.source_block == nearest.source_block && mirrored.source_cell == nearest.source_cell;
+    set.cell(index(mirrored.block), Primitive::pressure, mirrored.cell) -= head * (first ? next : 2.0 * next + there);
+  }
 }
 
 /// f(edge, side) for every side of the box; walls and periods are served here.
@@ -55,22 +64,40 @@ void share_primitives(Gas& gas, double time, Domain& domain) {
       write_primitive(gas, index(g.block), g.cell, beyond);
     }
   });
+  for (std::size_t s = 0; s < gas.cells.sides.size(); ++s)
+    if (gas.edges[s].kind == EdgeKind::wall) continue_column(gas, gas.cells.sides[s]);
 }
 
-void share_half_step(Gas& gas, Domain& domain) {
+void share_half_step(Gas& gas, double dt, Domain& domain) {
   CellSet& set = gas.half_step;
   share(gas.cells, set, domain);
-  fill_ghosts(gas, set, HalfStep::velocity, [&](const Edge&, const GhostSide& side) { clear(set, side.nearest); });
+  fill_ghosts(gas, set, HalfStep::velocity, [&](const Edge& edge, const GhostSide& side) {
+    copy(set, side.nearest, -1);
+    for (const Ghost& g : side.nearest) {
+      const std::size_t block = index(g.block);
+      const Filling beyond = edge.beyond(gas.cells.centre(block, g.cell), gas.time + 0.5 * dt);
+      const auto change = [&](int quantity, int primitive, double value) {
+        set.cell(block, quantity, g.cell) = value - gas.primitive.cell(block, primitive, g.cell);
+      };
+      change(HalfStep::pressure, Primitive::pressure, beyond.pressure);
+      if (edge.kind == EdgeKind::pressure) continue;
+      for (int a = 0; a < gas.dimensions(); ++a)
+        change(HalfStep::velocity + a, Primitive::velocity + a, beyond.velocity[static_cast<std::size_t>(a)]);
+    }
+  });
 }
 
-void share_moved(Gas& gas, double time, Domain& domain) {
+void share_moved(Gas& gas, double time, const Vector& moved, Domain& domain) {
   CellSet& set = gas.moved;
   share(gas.cells, set, domain);
   fill_ghosts(gas, set, Content::momentum, [&](const Edge& edge, const GhostSide& side) {
     if (edge.kind == EdgeKind::pressure) return copy(set, side.nearest, -1);
     for (const Ghost& g : side.nearest) {
-      const Filling beyond = edge.beyond(gas.cells.centre(index(g.block), g.cell), time);
-      write_content(gas, set, index(g.block), g.cell, beyond);
+      // Where the cell's gas is by now.
+      Vector x = gas.cells.centre(index(g.block), g.cell);
+      const Vector u = edge.beyond(x, time).velocity;
+      for (std::size_t a = 0; a < 3; ++a) x[a] += moved[a] * u[a];
+      write_content(gas, set, index(g.block), g.cell, edge.beyond(x, time));
     }
   });
 }

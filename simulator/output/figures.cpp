@@ -9,6 +9,7 @@
 
 #include "models/input/csv.hpp"
 #include "models/programs/figure.hpp"
+#include "simulator/gas/fields.hpp"
 #include "simulator/output/fields.hpp"
 #include "simulator/output/line_out.hpp"
 #include "simulator/output/measures.hpp"
@@ -196,7 +197,8 @@ Tiles tiles_of_solids(const Case& c, const Simulation& s) {
       const ParticleView view(body.particles, p);
       const Vector x = view.position();
       if (s.dimensions() == 3 && std::abs(x[2]) > h) continue;
-      points.x.push_back(x[0]), points.y.push_back(x[1]), points.values.push_back(field->scalar(view));
+      points.x.push_back(x[0]), points.y.push_back(x[1]);
+      field->read(view, &points.values.emplace_back());
       const Tensor<double> F = view.deformation_gradient();
       points.half_widths.push_back(view.half_width() * std::hypot(F.xx, F.xy));
       points.half_heights.push_back(view.half_width() * std::hypot(F.yx, F.yy));
