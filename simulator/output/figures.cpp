@@ -100,11 +100,12 @@ void draw_energy(const Case& c, const Path& directory) {
   };
   const std::vector<double> time = history.numbers("time", Unit::s);
   // The internal energy often equals what it is made of: it is dashed, so that both are seen.
-  Panel physical = against_time("Energy", time,
-                                {curve("kinetic_energy", "kinetic", 0), curve("plastic_work", "plastic work", 2),
-                                 curve("external_work", "work of loads", 3), curve("boundary_work", "work of boundaries", 4),
-                                 curve("viscous_work", "artificial viscosity", 5), curve("outflow_energy", "outflow", 7),
-                                 curve("internal_energy_change", "internal, change", 1, Mark::dashed)});
+  Panel physical = against_time(
+      "Energy", time,
+      {curve("kinetic_energy", "kinetic", 0), curve("plastic_work", "plastic work", 2),
+       curve("external_work", "work of loads", 3), curve("boundary_work", "work of boundaries", 4),
+       curve("friction_work", "friction", 6), curve("viscous_work", "artificial viscosity", 5),
+       curve("outflow_energy", "outflow", 7), curve("internal_energy_change", "internal, change", 1, Mark::dashed)});
   Panel numerical =
       against_time("Numerical books", time,
                    {curve("transfer_energy", "transfer", 0), curve("filter_energy", "filter", 1),

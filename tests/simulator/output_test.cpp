@@ -269,6 +269,37 @@ TEST(GridSnapshot, TheNodesHoldTheMassVelocityAndPlaceOfTheBar) {
     }
 }
 
+TEST(GridSnapshot, TheNodesHaveTheMassCentreAndMomentumOfABodyInThreeDimensions) {
+  const fs::path directory = scratch();
+  const Case c = read_case(
+      write_text(directory / "brick.toml",
+                 "geometry = \"three_dimensional\"\ncell_size = \"1 mm\"\nend_time = \"1 us\"\n[[solid]]\nname = \"brick\"\n"
+                 "shape = {box = {lower = [\"-7 mm\", \"1 mm\", \"20 mm\"], upper = [\"-3 mm\", \"8 mm\", \"22 mm\"]}}\n"
+                 "temperature = \"298 K\"\nvelocity = [30, -20, 10]\nmaterial = \"copper_ofhc_johnson_cook.toml\"\n"));
+  Simulation s = set_up(c);
+  write_grid_snapshot(directory, solid_grid, solid_image(s), {0.0});
+  ReadImage read(directory / "solid_grid_000000.vti");
+  EXPECT_EQ(read.attributes["Piece.Extent"], "-8 -2 0 9 19 23");  // splines reach a node beyond the brick on every side
+  const std::vector<double>&mass = read.values["mass"], &velocity = read.values["velocity"];
+  ASSERT_EQ(mass.size(), 7u * 10u * 5u);
+  double sum = 0.0;
+  Vector moment{}, momentum{};
+  for (std::size_t n = 0; n < mass.size(); ++n) {
+    const std::size_t i = n % 7, j = n / 7 % 10, k = n / 70;
+    const Vector x{1e-3 * (static_cast<double>(i) - 8.0), 1e-3 * static_cast<double>(j),
+                   1e-3 * (static_cast<double>(k) + 19.0)};
+    sum += mass[n], moment = moment + mass[n] * x;
+    momentum = momentum + mass[n] * Vector{velocity[3 * n], velocity[3 * n + 1], velocity[3 * n + 2]};
+  }
+  constexpr double rounding = 1e-12;
+  EXPECT_NEAR(sum / (c.bodies[0].material.material.density * 56e-9), 1.0, rounding);
+  const Vector centre{-5e-3, 4.5e-3, 21e-3}, speed{30.0, -20.0, 10.0};
+  for (std::size_t a = 0; a < 3; ++a) {
+    EXPECT_NEAR(moment[a] / sum / centre[a], 1.0, rounding);
+    EXPECT_NEAR(momentum[a] / sum / speed[a], 1.0, rounding);
+  }
+}
+
 TEST(GridSnapshot, TheCollectionListsEverySnapshotWithItsTime) {
   const fs::path directory = scratch();
   Simulation s = set_up(small_case(directory));
