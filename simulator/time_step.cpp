@@ -67,7 +67,6 @@ StepOutcome advance_usf(Simulation& s, double dt, double dt_velocity) {
 
 StepOutcome advance(Simulation& s, double dt) {
   const double dt_velocity = 0.5 * (dt + s.last_time_step);
-  move_planes(s.boundaries, s.time, s.grid.cell_size);
   activate_blocks(s);
   switch (s.numerics.stress_timing) {
     case StressTiming::usl:
