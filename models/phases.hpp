@@ -81,7 +81,9 @@ void shear_modulus(const M& material, Batch<Real>& batch) {
       const mask_of<Real> carries = s.shear_modulus > 0.0;
       const Real before = select(carries, s.shear_modulus, Real(1.0));
       p.released_heat = select(melted & carries, double_dot(p.deviator, p.deviator) / (4.0 * before * s.density), Real(0.0));
-      p.deviator = select(carries, now / before, Real(1.0)) * p.deviator;
+      // A melt bears no deviator, not even what rounding leaves of one: it would count as flow without end.
+      const Real factor = select(carries, now / before, select(melted, Real(0.0), Real(1.0)));
+      p.deviator = factor * p.deviator;
       s.shear_modulus = now;
     }
   });

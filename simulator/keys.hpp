@@ -132,8 +132,8 @@ inline constexpr auto keys<BodyConfig> = std::tuple{
 template <>
 inline constexpr auto keys<BoundaryConfig> = std::tuple{
     Key{"kind", &BoundaryConfig::kind, Unit::one,
-        "symmetry: nothing passes; fixed: sticks; velocity: a plane that travels and takes along what it "
-        "meets; rigid_wall: bodies may leave it and slide; "
+        "symmetry: nothing passes; fixed: sticks; velocity: gives the nodes of its plane a velocity, for strokes of up to half "
+        "a cell; rigid_wall: bodies may leave it and slide; "
         "outflow: bodies leave through it",
         any_value, required},
     Key{"axis", &BoundaryConfig::axis, Unit::one, "axis that the plane is normal to", any_value, required},

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "models/programs/files.hpp"
@@ -155,20 +156,30 @@ class Run {
 
   void advance_one_step() {
     StepSize size = next_step(s_, case_.numerics, end_);
-    constexpr int most_halvings = 20;
-    for (int halvings = 0;; ++halvings, size.dt *= 0.5) {
-      if (!(size.dt > 0.0) || !std::isfinite(size.dt) || (size.dt < case_.numerics.least_step && size.limit != last_steps) ||
-          halvings > most_halvings)
+    for (int rejections = 0;; ++rejections, size.dt *= 0.5) {
+      if (is_too_small(size) || (rejections > 0 && size.dt < smallest_step()))
         throw RunFailure(fmt::format(
             "step {} at {:.6g} s would have to be {:.4g} s{}; it is limited by {}{}", s_.step + 1, s_.time, size.dt,
             case_.numerics.least_step > 0.0 ? fmt::format(", less than {:.4g} s", case_.numerics.least_step) : "", size.limit,
-            halvings > 0 ? fmt::format(", and was rejected {} times; {}", halvings, why_rejected(s_, 2.0 * size.dt)) : ""));
+            rejections > 0 ? fmt::format(", and larger ones were rejected; {}", why_rejected(s_, 2.0 * size.dt)) : ""));
       if (advance(s_, size.dt) == StepOutcome::done) return;
       constexpr int most_lines = 100;
       if (++rejections_ <= most_lines)
         log_.line(fmt::format("step {} at {:.6g} s: rejected with {:.4g} s; {}", s_.step + 1, s_.time, size.dt,
                               why_rejected(s_, size.dt)));
     }
+  }
+
+  bool is_too_small(const StepSize& size) const {
+    return !(size.dt > 0.0) || !std::isfinite(size.dt) || (size.dt < case_.numerics.least_step && size.limit != last_steps);
+  }
+
+  /// After rejections a millionth of what waves and motion allow. Each step may be rejected a few times only, and yet the steps
+  /// come to an end: towards the end of an equation of state's range they halve again and again.
+  double smallest_step() const {
+    NumericsConfig at_once = case_.numerics;
+    at_once.growth = std::numeric_limits<double>::infinity();
+    return 1e-6 * next_step(s_, at_once, end_).dt;
   }
 
   void add_row() {

@@ -258,8 +258,7 @@ Boundary make_boundary(const BoundaryConfig& b, double cell_size) {
   result.name = b.name, result.kind = b.kind, result.axis = static_cast<int>(b.axis);
   result.node = static_cast<int>(std::lround(b.position / cell_size));
   result.inward = b.side == Side::above ? 1 : -1;
-  result.position = result.initial_position = result.node * cell_size, result.friction = b.friction,
-  result.velocity = b.velocity;
+  result.position = result.node * cell_size, result.friction = b.friction, result.velocity = b.velocity;
   return result;
 }
 

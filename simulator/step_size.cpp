@@ -1,6 +1,5 @@
 #include "simulator/step_size.hpp"
 
-#include <cmath>
 #include <limits>
 
 namespace brisance::simulator {
@@ -24,9 +23,6 @@ StepSize next_step(const Simulation& s, const NumericsConfig& numerics, double e
   constexpr double farthest = 0.5;  // cells a particle may move
   if (e.wave_and_motion > 0.0) limit(courant_number(s, numerics) * h / e.wave_and_motion, "the speed of waves");
   if (e.speed > 0.0) limit(farthest * h / e.speed, "the speed of particles");
-  for (const Boundary& b : s.boundaries)
-    if (b.kind == BoundaryKind::velocity && b.velocity(s.time) != 0.0)
-      limit(farthest * h / std::abs(b.velocity(s.time)), "the speed of a boundary");
   if (e.volume_rate > 0.0) limit(numerics.most_volume_change / e.volume_rate, "the rate of volume change");
   if (!s.gas.empty()) {
     constexpr double part = 0.5;

@@ -14,13 +14,12 @@ namespace {
 struct Raster {
   double spacing;
   int dimensions;
-  Vector lower;
+  Vector lower{};
   std::array<int, 3> count{1, 1, 1};
 
   /// The bounds of the shape with a margin all around.
   Raster(const Case& c, const Shape& shape, double spacing_, double margin) : spacing(spacing_), dimensions(c.dimensions()) {
     const Bounds box = bounds(shape);
-    lower = box.lower;
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimensions); ++a) {
       const int before = static_cast<int>(std::ceil(margin / spacing));
       lower[a] = box.lower[a] - before * spacing;

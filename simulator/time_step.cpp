@@ -74,7 +74,6 @@ StepOutcome advance_gas(Simulation& s, double dt) {
 StepOutcome advance(Simulation& s, double dt) {
   if (s.bodies.empty()) return advance_gas(s, dt);
   const double dt_velocity = 0.5 * (dt + s.last_time_step);
-  move_planes(s.boundaries, s.time, s.grid.cell_size);
   activate_blocks(s);
   switch (s.numerics.stress_timing) {
     case StressTiming::usl:

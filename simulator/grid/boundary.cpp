@@ -1,7 +1,5 @@
 #include "simulator/grid/boundary.hpp"
 
-#include "simulator/table.hpp"
-
 namespace brisance::simulator {
 namespace {
 
@@ -35,14 +33,6 @@ Lanes parity(int axis) {
 }
 
 }  // namespace
-
-void move_planes(std::vector<Boundary>& boundaries, double time, double cell_size) {
-  for (Boundary& b : boundaries) {
-    if (b.kind != BoundaryKind::velocity) continue;
-    b.position = b.initial_position + integral(b.velocity, time);
-    b.node = nearest_node(b.position, 1.0 / cell_size).node;
-  }
-}
 
 double touch_number(const Boundary& wall) {
   return static_cast<double>(std::uint64_t{1} << touch_shift(wall));

@@ -15,21 +15,17 @@ struct Boundary {
   std::string name;
   BoundaryKind kind = BoundaryKind::symmetry;
   int axis = 0;
+  int node = 0;           // index of the plane
   int inward = 1;         // +1: the bodies are above
-  double position = 0.0;  // m, now
-  int node = 0;           // index of the plane of nodes that is nearest to it
+  double position = 0.0;  // m
   double friction = 0.0;
-  Table velocity;                 // m/s against s, along the axis
-  double initial_position = 0.0;  // m, of kind velocity, which travels
+  Table velocity;  // m/s against s, along the axis
 
   /// A mirror continues even and odd fields; other planes continue the values linearly, which makes the weights of the plane
   /// interpolate.
   bool is_mirror() const { return kind == BoundaryKind::symmetry; }
   bool has_ghosts() const { return kind != BoundaryKind::outflow; }
 };
-
-/// Moves the boundaries that travel to where they are at a time (s). The state of a run need not hold it: it follows from time.
-void move_planes(std::vector<Boundary>& boundaries, double time, double cell_size);
 
 /// Which rigid walls particles touch at a node is one number, a sum in which every wall has eight bits, by axis and side: it is
 /// exact in a double, and no carry reaches the next wall's, because a tile says it once and a node has eight tiles at most,
@@ -48,7 +44,7 @@ void unfold(const std::vector<Boundary>& boundaries, BlockKey block, Lanes* tile
 template <int D>
 int local_plane(const Boundary& boundary, BlockKey block);
 
-/// The velocity of a node on the plane, or behind one that travels, as the boundary wants it.
+/// The velocity of a node on the plane as the boundary wants it.
 Vector bounded(const Boundary& boundary, Vector velocity, bool touched, double time);
 
 }  // namespace brisance::simulator

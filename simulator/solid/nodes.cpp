@@ -31,26 +31,17 @@ void write(std::array<double, 8>& c, int first, const Vector& v) {
   for (int a = 0; a < D; ++a) c[static_cast<std::size_t>(first + a)] = v[static_cast<std::size_t>(a)];
 }
 
-/// A boundary that holds nodes of a block: those on its plane, given by a local index, and behind a plane that travels all.
+/// The boundaries whose planes run through a block.
 struct Crossing {
   std::size_t boundary;
   int axis, plane;
-  int behind = 0;  // the direction in which nodes are held as well
-  bool holds(const std::array<int, 3>& local) const {
-    const int from_plane = local[static_cast<std::size_t>(axis)] - plane;
-    return from_plane == 0 || from_plane * behind > 0;
-  }
 };
 template <int D>
 std::vector<Crossing> crossings(const Simulation& s, BlockKey key) {
   std::vector<Crossing> found;
-  for (std::size_t i = 0; i < s.boundaries.size(); ++i) {
-    const Boundary& b = s.boundaries[i];
-    const int plane = b.node - block_position(key)[static_cast<std::size_t>(b.axis)] * Block<D>::side;
-    const int behind = b.kind == BoundaryKind::velocity ? -b.inward : 0;
-    const bool from_above = plane >= 0 || behind > 0, from_below = plane < Block<D>::side || behind < 0;
-    if (b.kind != BoundaryKind::outflow && from_above && from_below) found.push_back({i, b.axis, plane, behind});
-  }
+  for (std::size_t b = 0; b < s.boundaries.size(); ++b)
+    if (s.boundaries[b].kind != BoundaryKind::outflow)
+      if (const int plane = local_plane<D>(s.boundaries[b], key); plane >= 0) found.push_back({b, s.boundaries[b].axis, plane});
   return found;
 }
 
@@ -67,7 +58,7 @@ class LeastMass {
   }
   double operator()(const std::array<int, 3>& local) const {
     for (const Crossing& c : beside_)
-      if (c.holds(local)) return empty_beside_plane * reference_;
+      if (local[static_cast<std::size_t>(c.axis)] == c.plane) return empty_beside_plane * reference_;
     return empty * reference_;
   }
 
@@ -135,7 +126,7 @@ void for_each_node(Simulation& s, std::size_t number, double reference, F&& f) {
         node.sums = in, node.position = place<D>(block, local, s.grid.cell_size);
         node.planes.clear();
         for (const Crossing& c : planes)
-          if (c.holds(local)) node.planes.push_back(c.boundary);
+          if (local[static_cast<std::size_t>(c.axis)] == c.plane) node.planes.push_back(c.boundary);
         f(node, out);
       }
       motion[n] = Lanes::load(out.data());

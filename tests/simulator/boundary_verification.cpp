@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "running.hpp"
-#include "simulator/solid/motion.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -79,63 +78,6 @@ TEST(PrescribedVelocity, PistonDoesTheWorkOfItsForce) {
   EXPECT_NEAR(work.momentum[0], force * end, 0.01 * force * end);
   expect_closed_books(s);
 }
-
-/// A bar between a plane of symmetry and a piston that moves at constant speed, all of it at its part of that speed from the
-/// start: the deformation is uniform, x = X (1 - V t/L), no particle is accelerated, and the stress follows from the stretch.
-class TravellingPiston : public testing::TestWithParam<std::tuple<Axis, Basis>> {};
-
-TEST_P(TravellingPiston, CompressesUniformlyOverSeveralCells) {
-  const auto [direction, basis] = GetParam();
-  constexpr double V = 20.0, h = 0.05, length = 1.0, width = h, compression = 0.3;
-  const std::size_t along = direction == Axis::x ? 0 : 1;
-  Case c = along == 0 ? bar(h, length, width) : bar(h, width, length);
-  c.numerics.basis = basis;
-  const Axis other = direction == Axis::x ? Axis::y : Axis::x;
-  BoundaryConfig piston = plane(BoundaryKind::velocity, direction, length, Side::below);
-  piston.velocity = {1, {0.0}, {-V}};
-  c.boundaries = {plane(BoundaryKind::symmetry, direction, 0.0), plane(BoundaryKind::symmetry, other, 0.0),
-                  plane(BoundaryKind::symmetry, other, width, Side::below), piston};
-  Simulation s = set_up(c);
-  Particles& ps = s.bodies[0].particles;
-  std::vector<double> start(static_cast<std::size_t>(ps.size));
-  std::vector<std::uint64_t> ids(ps.id.begin(), ps.id.begin() + ps.size);
-  for (int p = 0; p < ps.size; ++p) {
-    const double X = ps.motion.at(static_cast<int>(along), p);
-    start[static_cast<std::size_t>(p)] = X;
-    ps.motion.at(L::Motion::velocity + static_cast<int>(along), p) = -V * X / length;
-    ps.motion.at(L::Motion::affine + static_cast<int>(3 * along), p) = -V / length;
-  }
-  open_books(s);
-  const double end = compression * length / V;
-  run_until(s, end);
-  const double stretch = 1.0 - V * s.time / length, first = s.boundaries[3].position;
-  EXPECT_NEAR(first, length * stretch, round_off);
-  EXPECT_EQ(s.boundaries[3].node, 14) << "six cells from where it was";
-  const double deviator = 4.0 / 3.0 * shear_modulus_ * std::log(stretch);
-  double most_density = 0.0, most_stress = 0.0, most_place = 0.0;
-  for (int p = 0; p < ps.size; ++p) {
-    const std::size_t was =
-        static_cast<std::size_t>(std::find(ids.begin(), ids.end(), ps.id[static_cast<std::size_t>(p)]) - ids.begin());
-    const double rho = ps.load.at(L::Load::density, p);
-    const double mean =
-        (ps.load.at(L::Load::stress, p) + ps.load.at(L::Load::stress + 1, p) + ps.load.at(L::Load::stress + 2, p)) / 3.0;
-    most_density = std::max(most_density, std::abs(rho * stretch / density - 1.0));
-    most_stress = std::max(most_stress, std::abs(ps.load.at(L::Load::stress + static_cast<int>(along), p) - mean - deviator));
-    most_place = std::max(most_place, std::abs(ps.motion.at(static_cast<int>(along), p) - stretch * start[was]));
-  }
-  std::printf("density %.2e, deviator %.2e of it, place %.2e cells\n", most_density, most_stress / std::abs(deviator),
-              most_place / h);
-  // The piston's velocity is that of a plane of nodes up to half a cell away, where the bar should be slower or faster by
-  // V h/(2 L); that comes and goes with every cell, and leaves h^2/(8 L^2) of strain.
-  constexpr double strain = 0.02;
-  EXPECT_LT(most_density, strain);
-  EXPECT_LT(most_stress, strain * std::abs(deviator) / std::abs(std::log(stretch)));
-  EXPECT_LT(most_place, 0.1 * h);
-  expect_closed_books(s);
-}
-INSTANTIATE_TEST_SUITE_P(AxesAndBases, TravellingPiston,
-                         testing::Combine(testing::Values(Axis::x, Axis::y),
-                                          testing::Values(Basis::quadratic_spline, Basis::ugimp)));
 
 // Rigid walls that meet ----------------------------------------------------------------------------------------------------
 

@@ -87,7 +87,8 @@ TEST(RunCommand, BooksThatDoNotCloseEndTheRunWithAReport) {
   const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
                     run = (directory / "run").string();
   // Nothing closes better than to round-off.
-  const Answer a = call({"run", file, "-o", run, "--set", "gates.residual=1e-30", "--set", "output.checkpoint_steps=1"});
+  const Answer a = call({"run", file, "-o", run, "--set", "gates.residual=1e-30", "--set", "output.checkpoint_steps=1", "--set",
+                         "output.history_interval=0.5 us"});
   EXPECT_EQ(a.code, failed_while_running);
   EXPECT_TRUE(contains(a.err, "gate residual: ")) << a.err;
   EXPECT_TRUE(contains(a.err, "last checkpoint: " + run)) << a.err;
