@@ -46,6 +46,15 @@ void fill_ghosts(const Gas& gas, CellSet& set, int first_component, F&& otherwis
   }
 }
 
+/// The state beyond an edge of what was in a ghost cell before it moved for some time (s) along each axis. The cells of a step
+/// move with the gas, and so do the ghosts.
+Filling moved_beyond(const Gas& gas, const Edge& edge, const Ghost& ghost, double time, const Vector& moved) {
+  Vector x = gas.cells.centre(index(ghost.block), ghost.cell);
+  const Vector u = edge.beyond(x, time).velocity;
+  for (std::size_t a = 0; a < 3; ++a) x[a] += moved[a] * u[a];
+  return edge.beyond(x, time);
+}
+
 }  // namespace
 
 void share_primitives(Gas& gas, double time, Domain& domain) {
@@ -73,9 +82,10 @@ void share_half_step(Gas& gas, double dt, Domain& domain) {
   share(gas.cells, set, domain);
   fill_ghosts(gas, set, HalfStep::velocity, [&](const Edge& edge, const GhostSide& side) {
     copy(set, side.nearest, -1);
+    const double half = 0.5 * dt;
     for (const Ghost& g : side.nearest) {
       const std::size_t block = index(g.block);
-      const Filling beyond = edge.beyond(gas.cells.centre(block, g.cell), gas.time + 0.5 * dt);
+      const Filling beyond = moved_beyond(gas, edge, g, gas.time + half, {half, half, half});
       const auto change = [&](int quantity, int primitive, double value) {
         set.cell(block, quantity, g.cell) = value - gas.primitive.cell(block, primitive, g.cell);
       };
@@ -92,13 +102,8 @@ void share_moved(Gas& gas, double time, const Vector& moved, Domain& domain) {
   share(gas.cells, set, domain);
   fill_ghosts(gas, set, Content::momentum, [&](const Edge& edge, const GhostSide& side) {
     if (edge.kind == EdgeKind::pressure) return copy(set, side.nearest, -1);
-    for (const Ghost& g : side.nearest) {
-      // Where the cell's gas is by now.
-      Vector x = gas.cells.centre(index(g.block), g.cell);
-      const Vector u = edge.beyond(x, time).velocity;
-      for (std::size_t a = 0; a < 3; ++a) x[a] += moved[a] * u[a];
-      write_content(gas, set, index(g.block), g.cell, edge.beyond(x, time));
-    }
+    for (const Ghost& g : side.nearest)
+      write_content(gas, set, index(g.block), g.cell, moved_beyond(gas, edge, g, time, moved));
   });
 }
 

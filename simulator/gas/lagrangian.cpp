@@ -53,7 +53,11 @@ Star star(const FaceSide& L, const FaceSide& R, const Lanes& sound_L, const Lane
   const Lanes slower = min(sound_L, sound_R);
   const LanesMask shocked =
       (abs(R.pressure - L.pressure) > 0.1 * min(abs(L.pressure), abs(R.pressure))) | (closing > 0.1 * slower);
-  const Lanes mach = min(max(Lanes(speed / slower), Lanes(least_mach)), Lanes(1.0));
+  // A wave of sound brings as much pressure as its velocity times the impedance; in slow flow that bends around there is next
+  // to none. Waves keep their damping, or their fronts become steps; the square, because of the flow a part of its Mach number
+  // stays.
+  const Lanes waves = abs(R.pressure - L.pressure) / max(Lanes(Z_L * abs(R.velocity - L.velocity)), Lanes(1e-300));
+  const Lanes mach = min(max(max(Lanes(speed / slower), Lanes(least_mach)), waves * waves), Lanes(1.0));
   const Lanes damping = select(shocked, Lanes(1.0), mach);
   return {(Z_L * L.velocity + Z_R * R.velocity + L.pressure - R.pressure) * sum,
           (Z_R * L.pressure + Z_L * R.pressure - damping * Z_L * Z_R * (R.velocity - L.velocity)) * sum};

@@ -46,7 +46,8 @@ struct Problem {
     Gas gas = set_up::box(geometry, cell_size, lower, upper, air_and_water, domain);
     gas.fluids.resize(fluids);
     if (!edges.empty()) gas.edges = edges;
-    fill(gas, [this](const Vector& x, double) { return start(x); }, domain);
+    fill(
+        gas, [this](const Vector& x, double) { return start(x); }, domain);
     return gas;
   }
   Filling start(const Vector& x) const {
@@ -67,18 +68,17 @@ struct Problem {
   }
 };
 
-const std::vector<Problem> closed = {
-    {"planar_1d", Geometry::planar_1d, {-20, 0, 0}, {151, 0, 0}},
-    {"cylindrical_1d", Geometry::cylindrical_1d, {0, 0, 0}, {171, 0, 0}},
-    {"spherical_1d", Geometry::spherical_1d, {0, 0, 0}, {171, 0, 0}},
-    {"spherical_1d away from the centre", Geometry::spherical_1d, {30, 0, 0}, {201, 0, 0}},
-    {"plane", Geometry::plane, {-5, 3, 0}, {32, 24, 0}},
-    {"axisymmetric", Geometry::axisymmetric, {0, -9, 0}, {29, 18, 0}},
-    {"three_dimensional", Geometry::three_dimensional, {-3, 0, 5}, {16, 13, 16}},
-    {"one gas on a line", Geometry::planar_1d, {-20, 0, 0}, {151, 0, 0}, 1},
-    {"one gas in a plane", Geometry::plane, {-5, 3, 0}, {32, 24, 0}, 1},
-    {"one gas about an axis", Geometry::axisymmetric, {0, -9, 0}, {29, 18, 0}, 1},
-    {"one gas in space", Geometry::three_dimensional, {-3, 0, 5}, {16, 13, 16}, 1}};
+const std::vector<Problem> closed = {{"planar_1d", Geometry::planar_1d, {-20, 0, 0}, {151, 0, 0}},
+                                     {"cylindrical_1d", Geometry::cylindrical_1d, {0, 0, 0}, {171, 0, 0}},
+                                     {"spherical_1d", Geometry::spherical_1d, {0, 0, 0}, {171, 0, 0}},
+                                     {"spherical_1d away from the centre", Geometry::spherical_1d, {30, 0, 0}, {201, 0, 0}},
+                                     {"plane", Geometry::plane, {-5, 3, 0}, {32, 24, 0}},
+                                     {"axisymmetric", Geometry::axisymmetric, {0, -9, 0}, {29, 18, 0}},
+                                     {"three_dimensional", Geometry::three_dimensional, {-3, 0, 5}, {16, 13, 16}},
+                                     {"one gas on a line", Geometry::planar_1d, {-20, 0, 0}, {151, 0, 0}, 1},
+                                     {"one gas in a plane", Geometry::plane, {-5, 3, 0}, {32, 24, 0}, 1},
+                                     {"one gas about an axis", Geometry::axisymmetric, {0, -9, 0}, {29, 18, 0}, 1},
+                                     {"one gas in space", Geometry::three_dimensional, {-3, 0, 5}, {16, 13, 16}, 1}};
 
 struct Books {
   std::vector<double> mass;
@@ -174,8 +174,7 @@ TEST(Conservation, OfMomentumWhereTheBoxIsEndless) {
     const Totals after = totals(gas, *domain);
     for (int a = 0; a < gas.dimensions(); ++a) {
       const auto i = static_cast<std::size_t>(a);
-      EXPECT_NEAR(after.momentum[i], before.momentum[i], round_off * motion(before))
-          << problem.name << ", axis " << a;
+      EXPECT_NEAR(after.momentum[i], before.momentum[i], round_off * motion(before)) << problem.name << ", axis " << a;
     }
     EXPECT_LT(set_up::relative_change(before.energy, after.energy), round_off) << problem.name;
   }
@@ -210,7 +209,8 @@ using State = std::map<BlockKey, std::vector<std::uint64_t>>;  // bits of the co
 void add_state(const Gas& gas, State& state) {
   set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
     std::vector<std::uint64_t>& bits = state[gas.cells.blocks[c.block]];
-    for (int q = 0; q < gas.contents(); ++q) bits.push_back(std::bit_cast<std::uint64_t>(gas.content.cell(c.block, q, c.number)));
+    for (int q = 0; q < gas.contents(); ++q)
+      bits.push_back(std::bit_cast<std::uint64_t>(gas.content.cell(c.block, q, c.number)));
   });
   for (const Passage& p : gas.passages) {
     std::vector<std::uint64_t>& bits = state[gas.cells.blocks[static_cast<std::size_t>(p.block)]];
@@ -301,7 +301,8 @@ std::vector<Problem> problems_for_ranks() {
 TEST(SameBits, ForAnyNumberOfRanks) {
   for (const Problem& problem : problems_for_ranks()) {
     const Outcomes one = after_steps(problem, 1);
-    for (const int ranks : {2, 3, 5}) expect_same(one, after_steps(problem, ranks), problem.name + ", ranks " + std::to_string(ranks));
+    for (const int ranks : {2, 3, 5})
+      expect_same(one, after_steps(problem, ranks), problem.name + ", ranks " + std::to_string(ranks));
   }
 }
 

@@ -101,7 +101,8 @@ void for_each_cell(const Gas& gas, F&& f) {
 /// Part of a cell's volume that a fluid takes.
 inline double fraction(const Gas& gas, const Cell& cell, int fluid) {
   if (gas.fluids.size() == 1) return 1.0;
-  return gas.content.cell(cell.block, Content::fluids(gas.dimensions()) + 3 * fluid + Content::volume, cell.number) / cell.volume;
+  return gas.content.cell(cell.block, Content::fluids(gas.dimensions()) + 3 * fluid + Content::volume, cell.number) /
+         cell.volume;
 }
 /// The cells along a line, in order.
 inline std::vector<GasState> profile(const Gas& gas) {

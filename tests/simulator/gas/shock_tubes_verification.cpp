@@ -36,7 +36,8 @@ struct Tube {
     Gas gas = set_up::box(Geometry::planar_1d, 1.0 / cells, {}, {cells, 0, 0}, {set_up::ideal_gas()}, domain);
     if (!closed)
       gas.edges = {set_up::beyond(EdgeKind::inflow, filling(left)), set_up::beyond(EdgeKind::inflow, filling(right))};
-    fill(gas, [&](const Vector& x, double) { return filling(x[0] < diaphragm ? left : right); }, domain);
+    fill(
+        gas, [&](const Vector& x, double) { return filling(x[0] < diaphragm ? left : right); }, domain);
     return gas;
   }
 };
@@ -120,7 +121,8 @@ TEST(EntropyWave, ArrivesWithSecondOrder) {
     const double h = 1.0 / cells;
     Gas gas = set_up::box(Geometry::planar_1d, h, {}, {cells, 0, 0}, {set_up::ideal_gas()}, *domain);
     gas.edges = {set_up::around(), set_up::around()};
-    fill(gas, [&](const Vector& x, double) { return filling(wave.average(x[0] - 0.5 * h, x[0] + 0.5 * h, 0.0)); }, *domain);
+    fill(
+        gas, [&](const Vector& x, double) { return filling(wave.average(x[0] - 0.5 * h, x[0] + 0.5 * h, 0.0)); }, *domain);
     const Totals before = totals(gas, *domain);
     Stepper().to(gas, 1.0, *domain);
     const Totals after = totals(gas, *domain);
@@ -210,8 +212,8 @@ TEST(ShuOsher, WavesBehindTheShockConverge) {
       };
       const std::vector<GasState> p = set_up::profile(gas);
       const double waves = rise([&](int i) { return p[static_cast<std::size_t>(i)].density; }, 0.6, 2.2, cells, -5.0, h);
-      const double reference = rise([&](int i) { return fine.cells[static_cast<std::size_t>(i)].density; }, 0.6, 2.2, fine_grid,
-                                    -5.0, fine.width());
+      const double reference =
+          rise([&](int i) { return fine.cells[static_cast<std::size_t>(i)].density; }, 0.6, 2.2, fine_grid, -5.0, fine.width());
       EXPECT_GT(waves / reference, 0.8);
       RecordProperty("amplitude", std::to_string(waves / reference));
     }
@@ -230,7 +232,8 @@ TEST(WoodwardColella, BlastsCollideAsOnAFineGrid) {
   for (const int cells : {200, 400, 800}) {
     const auto domain = single_process();
     Gas gas = set_up::box(Geometry::planar_1d, 1.0 / cells, {}, {cells, 0, 0}, {set_up::ideal_gas()}, *domain);
-    fill(gas, [](const Vector& x, double) { return filling(woodward_colella_start(x[0])); }, *domain);
+    fill(
+        gas, [](const Vector& x, double) { return filling(woodward_colella_start(x[0])); }, *domain);
     const Totals before = totals(gas, *domain);
     Stepper().to(gas, time, *domain);
     const Totals after = totals(gas, *domain);

@@ -29,7 +29,8 @@ TEST(IsentropicVortex, ReturnsWithSecondOrder) {
     Gas gas = set_up::box(Geometry::plane, vortex.period / cells, {-cells / 2, -cells / 2, 0}, {cells / 2, cells / 2, 0},
                           {set_up::ideal_gas()}, *domain);
     gas.edges.assign(4, set_up::around());
-    fill(gas, [&](const Vector& x, double) { return filling(vortex.at(x[0], x[1], 0.0)); }, *domain);
+    fill(
+        gas, [&](const Vector& x, double) { return filling(vortex.at(x[0], x[1], 0.0)); }, *domain);
     Stepper{.courant = 0.8}.to(gas, vortex.period, *domain);
     double square = 0.0;
     set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
@@ -50,7 +51,8 @@ double loss_of_gresho(double mach, double time) {
   Gas gas = set_up::box(Geometry::plane, 1.0 / cells, {-cells / 2, -cells / 2, 0}, {cells / 2, cells / 2, 0},
                         {set_up::ideal_gas()}, *domain);
   gas.edges.assign(4, set_up::around());
-  fill(gas, [&](const Vector& x, double) { return filling(vortex.at(x[0], x[1])); }, *domain);
+  fill(
+      gas, [&](const Vector& x, double) { return filling(vortex.at(x[0], x[1])); }, *domain);
   const double before = totals(gas, *domain).kinetic;
   Stepper().to(gas, time, *domain);
   return 1.0 - totals(gas, *domain).kinetic / before;
@@ -72,8 +74,8 @@ TEST(GreshoVortex, LosesLittleAtMach001) {
   EXPECT_GT(loss, 0.0);
 }
 
-/// A turn takes 250 thousand steps, so the program makes a twentieth of one, in which the edges of the vortex, where its velocity
-/// has kinks, lose most. With BRISANCE_LONG_TESTS it makes all of it.
+/// A turn takes 250 thousand steps, so the program makes a twentieth of one, in which the edges of the vortex, where its
+/// velocity has kinks, lose most. With BRISANCE_LONG_TESTS it makes all of it.
 TEST(GreshoVortex, LosesLittleAtMach0001) {
   const bool all_of_it = std::getenv("BRISANCE_LONG_TESTS") != nullptr;
   const double loss = loss_of_gresho(0.001, all_of_it ? 1.0 : 0.05);
@@ -102,7 +104,12 @@ TEST(UniformState, StaysInEveryGeometry) {
   for (const Case& g : geometries) {
     const auto domain = single_process();
     Gas gas = set_up::box(g.geometry, 0.01, g.lower, g.upper, {set_up::ideal_gas()}, *domain);
-    fill(gas, [](const Vector&, double) { return Filling{0, 1.2, 1e5, {}}; }, *domain);
+    fill(
+        gas,
+        [](const Vector&, double) {
+          return Filling{0, 1.2, 1e5, {}};
+        },
+        *domain);
     Stepper().steps(gas, 500, *domain);
     set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
       ASSERT_NEAR(c.density / 1.2, 1.0, round_off) << g.name;
@@ -116,15 +123,20 @@ TEST(UniformState, StaysInEveryGeometry) {
 TEST(UniformStream, StaysWhereTheGeometryHasOne) {
   constexpr double round_off = 1e-12;  // of 200 steps of 1e-15 each, and their waves
   for (const Case& g : geometries) {
-    const bool straight = g.geometry == Geometry::planar_1d || g.geometry == Geometry::plane ||
-                          g.geometry == Geometry::three_dimensional;
+    const bool straight =
+        g.geometry == Geometry::planar_1d || g.geometry == Geometry::plane || g.geometry == Geometry::three_dimensional;
     if (!straight && g.geometry != Geometry::axisymmetric) continue;
     const Vector stream = straight ? Vector{300.0, -150.0, 75.0} : Vector{0.0, 300.0, 0.0};
     const auto domain = single_process();
     Gas gas = set_up::box(g.geometry, 0.01, g.lower, g.upper, {set_up::ideal_gas()}, *domain);
     gas.edges.assign(gas.edges.size(), set_up::around());
     if (!straight) gas.edges[0] = gas.edges[1] = set_up::wall();
-    fill(gas, [&](const Vector&, double) { return Filling{0, 1.2, 1e5, stream}; }, *domain);
+    fill(
+        gas,
+        [&](const Vector&, double) {
+          return Filling{0, 1.2, 1e5, stream};
+        },
+        *domain);
     Stepper().steps(gas, 200, *domain);
     set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
       ASSERT_NEAR(c.density / 1.2, 1.0, round_off) << g.name;
@@ -156,8 +168,7 @@ TEST(UniformExpansion, HasSecondOrderInEveryGeometry) {
       for (int& n : upper) n /= part;
       const double h = 1.0 / upper[0];
       Gas gas = set_up::box(g.geometry, h, {}, upper, {set_up::ideal_gas(gamma)}, *domain);
-      for (std::size_t side = 1; side < gas.edges.size(); side += 2)
-        gas.edges[side] = set_up::beyond(EdgeKind::inflow, exact);
+      for (std::size_t side = 1; side < gas.edges.size(); side += 2) gas.edges[side] = set_up::beyond(EdgeKind::inflow, exact);
       fill(gas, exact, *domain);
       Stepper().to(gas, time, *domain);
       double sum = 0.0, volume = 0.0;
