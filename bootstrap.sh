@@ -84,6 +84,7 @@ case $action in
     build -DBRISANCE_BUILD_TESTS=ON
     "$build/tests/bench"
     "$build/tests/bench_simulator" "$@"
+    "$build/tests/bench_gas"
     ;;
   *) usage ;;
 esac

@@ -1,6 +1,7 @@
 #include "simulator/gas/gas.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
 
@@ -14,6 +15,17 @@
 
 namespace brisance::simulator::gas {
 namespace {
+
+/// Does a part of the step and notes how long it takes.
+template <class F>
+auto timed(Gas& gas, Phase phase, F&& f) {
+  const struct Watch {
+    double& seconds;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    ~Watch() { seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+  } watch{gas.seconds[static_cast<std::size_t>(phase)]};
+  return f();
+}
 
 /// The room of a cell is what it was before the step, to the last bit.
 void settle(Gas& gas) {
@@ -70,9 +82,9 @@ void fill(Gas& gas, const FillingFunction& filling, Domain& domain) {
 }
 
 void begin(Gas& gas, Domain& domain) {
-  find_equilibrium(gas);
+  timed(gas, Phase::equilibrium, [&] { find_equilibrium(gas); });
   gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
-  share_primitives(gas, gas.time, domain);
+  timed(gas, Phase::ghosts, [&] { share_primitives(gas, gas.time, domain); });
 }
 
 double largest_step(const Gas& gas, double courant) {
@@ -82,9 +94,9 @@ double largest_step(const Gas& gas, double courant) {
 
 Outcome advance(Gas& gas, double dt, Domain& domain) {
   clear_step(gas.passages);
-  advance_half_step(gas, dt);
-  share_half_step(gas, dt, domain);
-  const bool good = lagrangian_phase(gas, dt);
+  timed(gas, Phase::half_step, [&] { advance_half_step(gas, dt); });
+  timed(gas, Phase::ghosts, [&] { share_half_step(gas, dt, domain); });
+  const bool good = timed(gas, Phase::lagrangian, [&] { return lagrangian_phase(gas, dt); });
   if (domain.maximum(good ? 0.0 : 1.0) > 0.0) return Outcome::rejected;
   // The order of the axes turns around with every step, so that none is always first.
   const int D = gas.dimensions();
@@ -92,8 +104,8 @@ Outcome advance(Gas& gas, double dt, Domain& domain) {
   Vector moved{dt, dt, dt};
   for (int n = 0; n < D; ++n) {
     const int axis = gas.step % 2 == 0 ? n : D - 1 - n;
-    share_moved(gas, gas.time + dt, moved, domain);
-    const bool held = sweep(gas, axis);
+    timed(gas, Phase::ghosts, [&] { share_moved(gas, gas.time + dt, moved, domain); });
+    const bool held = timed(gas, Phase::remap, [&] { return sweep(gas, axis); });
     if (domain.maximum(held ? 0.0 : 1.0) > 0.0) {
       gas.flattened = flattened;
       return Outcome::rejected;
@@ -101,8 +113,10 @@ Outcome advance(Gas& gas, double dt, Domain& domain) {
     std::swap(gas.moved, gas.next);
     moved[static_cast<std::size_t>(axis)] = 0.0;
   }
-  settle(gas);
-  book_step(gas.passages);
+  timed(gas, Phase::ghosts, [&] {
+    settle(gas);
+    book_step(gas.passages);
+  });
   gas.time += dt, ++gas.step;
   begin(gas, domain);
   return Outcome::done;

@@ -7,8 +7,10 @@
 // The scheme keeps the skeleton of ICE (Kashiwa et al., LA-UR-93-3922, 1993) with the acoustic face states of
 // Lagrange-projection schemes (Chalons, Girardin & Kokh, J. Comput. Phys. 335 (2017) 885) and total instead of internal energy.
 
+#include <array>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "models/equation_of_state/equation_of_state.hpp"
@@ -84,6 +86,11 @@ struct Totals {
   double kinetic = 0.0;      // J
 };
 
+/// Where the time of a step goes.
+enum class Phase { half_step, lagrangian, remap, equilibrium, ghosts, count };
+inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names{
+    "half step", "Lagrangian phase", "remap", "equilibrium", "ghosts, halo, books"};
+
 struct Gas {
   Cells cells;
   std::vector<Fluid> fluids;
@@ -102,8 +109,9 @@ struct Gas {
   double time = 0.0;  // s
   std::int64_t step = 0;
   Totals initial;
-  double wave_rate = 0.0;      // 1/s, largest sum over the axes of (|u| + c)/h
-  double motion_rate = 0.0;    // 1/s, largest |u|/h of one axis
+  double wave_rate = 0.0;                                                // 1/s, largest sum over the axes of (|u| + c)/h
+  double motion_rate = 0.0;                                              // 1/s, largest |u|/h of one axis
+  std::array<double, static_cast<std::size_t>(Phase::count)> seconds{};  // of wall time, by phase, in this process
   std::int64_t flattened = 0;  // slopes that were taken back so that no cell loses more energy than it has
 
   bool empty() const { return fluids.empty(); }

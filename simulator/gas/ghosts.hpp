@@ -9,8 +9,8 @@ namespace brisance::simulator::gas {
 void share_primitives(Gas& gas, double time, Domain& domain);
 /// What the first half of a step of dt (s) changes there.
 void share_half_step(Gas& gas, double dt, Domain& domain);
-/// Contents of halo and ghosts between the sweeps of the remap, at the end of the step; `moved` (s) tells for each axis how long
-/// the cells have moved along it.
+/// Contents of halo and ghosts between the sweeps of the remap, at the end of the step; `moved` (s) tells for each axis how
+/// long the cells have moved along it.
 void share_moved(Gas& gas, double time, const Vector& moved, Domain& domain);
 
 }  // namespace brisance::simulator::gas
