@@ -59,8 +59,9 @@ Star star(const FaceSide& L, const FaceSide& R, const Lanes& sound_L, const Lane
   const Lanes waves = abs(R.pressure - L.pressure) / max(Lanes(Z_L * abs(R.velocity - L.velocity)), Lanes(1e-300));
   const Lanes mach = min(max(max(Lanes(speed / slower), Lanes(least_mach)), waves * waves), Lanes(1.0));
   const Lanes damping = select(shocked, Lanes(1.0), mach);
-  return {(Z_L * L.velocity + Z_R * R.velocity + L.pressure - R.pressure) * sum,
-          (Z_R * L.pressure + Z_L * R.pressure - damping * Z_L * Z_R * (R.velocity - L.velocity)) * sum};
+  // In this order the mirror image of the two sides gives the mirror image of the face, to the last bit.
+  return {((Z_L * L.velocity + Z_R * R.velocity) + (L.pressure - R.pressure)) * sum,
+          ((Z_R * L.pressure + Z_L * R.pressure) - damping * (Z_L * Z_R) * (R.velocity - L.velocity)) * sum};
 }
 
 template <int D>
