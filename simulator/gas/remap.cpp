@@ -19,16 +19,23 @@ struct Donor {
 };
 
 /// Takes slopes of the velocity back where parting the cell would take more kinetic energy than there is heat: the parts of a
-/// cell move with different velocities, and their kinetic energies together exceed that of the whole by up to 1/32 of the mass
-/// times the square of the slope.
+/// cell move with different velocities, and their kinetic energies together exceed that of the whole. What a part of the cell
+/// pays for that is its mass times the square of the slope over 8 at most, and it may be as cold as the coldest neighbour.
 template <int D>
-LanesMask flatten(Donor<D>& d) {
-  Lanes jump(0.0);
-  for (int a = 0; a < D; ++a) jump += d.velocity_slope[a] * d.velocity_slope[a];
+LanesMask flatten(Donor<D>& d, const Lanes& least_energy) {
+  Lanes square(0.0);
+  for (int a = 0; a < D; ++a) square += d.velocity_slope[a] * d.velocity_slope[a];
   constexpr double most = 4.0;  // of the slope's square over the specific energy
-  const LanesMask too_steep = jump * d.density > most * d.energy;
-  for (int a = 0; a < D; ++a) d.velocity_slope[a] = select(too_steep, Lanes(0.0), d.velocity_slope[a]);
-  return too_steep & (jump > 0.0);
+  const Lanes allowed = most * max(least_energy, Lanes(0.0)), wanted = square * d.density;
+  const LanesMask too_steep = wanted > allowed;
+  if (any(too_steep)) {
+    const Lanes part = select(too_steep, sqrt(allowed / max(wanted, Lanes(1e-300))), Lanes(1.0));
+    for (int a = 0; a < D; ++a) d.velocity_slope[a] = part * d.velocity_slope[a];
+  }
+  return too_steep;
+}
+Lanes least_around(const Pencil& field, std::size_t c) {
+  return min(min(field[c - 1], field[c + 1]), field[c]);
 }
 
 /// The flow through one face: which of its two cells gives, and what part of it.
@@ -104,7 +111,7 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
       d.room = room[c], d.mass = mass[c];
       d.density = density[c], d.energy = energy[c];
       for (int a = 0; a < D; ++a) d.velocity[a] = velocity[a][c], d.velocity_slope[a] = slope(velocity[a], c);
-      const LanesMask taken = flatten<D>(d);
+      const LanesMask taken = flatten<D>(d, least_around(energy, c));
       if (c >= ring && c < ring + line && any(taken))
         for (int l = 0; l < 8; ++l) result.flattened += taken[l] ? 1 : 0;
     }
@@ -178,7 +185,7 @@ SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
       Donor<D>& d = donors[c];
       d.room = room[c], d.mass = mass[c], d.density = mass[c] / room[c], d.energy = energy[c];
       for (int a = 0; a < D; ++a) d.velocity[a] = velocity[a][c], d.velocity_slope[a] = slope(velocity[a], c);
-      const LanesMask taken = flatten<D>(d);
+      const LanesMask taken = flatten<D>(d, least_around(energy, c));
       if (c >= ring && c < ring + line && any(taken))
         for (int l = 0; l < 8; ++l) result.flattened += taken[l] ? 1 : 0;
     }

@@ -1,5 +1,9 @@
 #pragma once
-// Lanes used as one number per channel: how they are put together, and the inner operation of the transfers.
+// How lanes are put together from numbers that stand elsewhere, and taken apart again: for the transfers, in which lanes are
+// now eight particles, now the eight channels of a node.
+
+#include <array>
+#include <cstdint>
 
 #include "models/real.hpp"
 
@@ -10,17 +14,79 @@ inline Lanes multiply_add(double a, const Lanes& b, const Lanes& c) {
   return multiply_add(Lanes(a), b, c);
 }
 
-/// Eight numbers side by side, put together in registers: written to memory one by one, they could not be loaded at once
-/// without waiting for the last.
+/// Eight numbers side by side.
 inline Lanes pack(double a, double b, double c, double d, double e = 0.0, double f = 0.0, double g = 0.0, double h = 0.0) {
+  const double all[8] = {a, b, c, d, e, f, g, h};
+  return Lanes::load(all);
+}
+
+/// The largest integers that are not above the numbers, for |x| < 2^51.
+inline Lanes floor(const Lanes& x) {
+  const Lanes nearest = (x + simd::shifter) - simd::shifter;
+  return select(nearest > x, nearest - 1.0, nearest);
+}
+
+/// A pack in memory. Unlike lanes it is nothing until something is put there, and its elements are cheap to take one by one.
+struct alignas(64) StoredPack {
+  double element[8];
+
+  StoredPack() = default;
+  StoredPack(const Lanes& values) { values.store(element); }
+  operator Lanes() const { return Lanes::load(element); }
+  double operator[](std::size_t i) const { return element[i]; }
+};
+/// Eight particles by eight channels, or the other way round.
+using Square = std::array<StoredPack, 8>;
+
+/// Where eight numbers stand, counted from some address.
+struct alignas(64) Places {
+  std::array<std::int64_t, 8> at;
+};
+inline Lanes gather(const double* from, const Places& places) {
+#if defined(__AVX512F__)
   Lanes r;
-  if constexpr (simd::register_width == 8) {
-    r.part[0] = simd::Register{a, b, c, d, e, f, g, h};
-  } else {
-    const double all[8] = {a, b, c, d, e, f, g, h};
-    for (int i = 0; i < 8; ++i) r.set(i, all[i]);
-  }
+  r.part[0] = _mm512_mask_i64gather_pd(simd::Register{}, 0xff, _mm512_load_si512(places.at.data()), from, 8);
   return r;
+#else
+  const auto& at = places.at;
+  return pack(from[at[0]], from[at[1]], from[at[2]], from[at[3]], from[at[4]], from[at[5]], from[at[6]], from[at[7]]);
+#endif
+}
+/// Where places coincide, the last of the numbers stays.
+inline void scatter(const Lanes& values, double* to, const Places& places) {
+#if defined(__AVX512F__)
+  _mm512_i64scatter_pd(to, _mm512_load_si512(places.at.data()), values.part[0], 8);
+#else
+  for (int i = 0; i < 8; ++i) to[places.at[static_cast<std::size_t>(i)]] = values[i];
+#endif
+}
+
+/// Element j of row i becomes element i of row j.
+[[gnu::always_inline]] inline Square transposed(const Square& rows) {
+  Square result;
+#if defined(__AVX512F__)
+  std::array<simd::Register, 8> row, two, four;  // columns of two rows, of four
+  for (std::size_t i = 0; i < 8; ++i) row[i] = Lanes(rows[i]).part[0];
+  for (std::size_t i = 0; i < 8; i += 2) {
+    two[i] = __builtin_shufflevector(row[i], row[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    two[i + 1] = __builtin_shufflevector(row[i], row[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  for (const std::size_t i : {0, 1, 4, 5}) {
+    four[i] = __builtin_shufflevector(two[i], two[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+    four[i + 2] = __builtin_shufflevector(two[i], two[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+  }
+  Lanes column;
+  for (std::size_t i = 0; i < 4; ++i) {
+    column.part[0] = __builtin_shufflevector(four[i], four[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    result[i] = column;
+    column.part[0] = __builtin_shufflevector(four[i], four[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    result[i + 4] = column;
+  }
+#else
+  for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t j = 0; j < 8; ++j) result[i].element[j] = rows[j][i];
+#endif
+  return result;
 }
 
 }  // namespace brisance::simulator

@@ -29,6 +29,8 @@ class ColumnSet {
     const std::size_t chunks = (static_cast<std::size_t>(particles) + chunk_size - 1) / chunk_size;
     data_.resize(chunks * static_cast<std::size_t>(columns_ * chunk_size), 0.0);
   }
+  /// Where column 0 of a particle stands, counted from chunk 0.
+  std::int64_t offset(std::uint32_t p) const { return std::int64_t{p / chunk_size} * (columns_ * chunk_size) + p % chunk_size; }
   double* chunk(int c) { return data_.data() + static_cast<std::size_t>(c) * static_cast<std::size_t>(columns_ * chunk_size); }
   const double* chunk(int c) const { return const_cast<ColumnSet*>(this)->chunk(c); }
   /// Column 0 of a particle; its column k is k * chunk_size further on.

@@ -290,7 +290,7 @@ void advance_all(Simulation& s, double dt, ColumnSet Particles::*velocities) {
       advance_prescribed<D>(s, body, dt, body.particles.*velocities, all);
       continue;
     }
-    constexpr int batch_chunks = Batch<Lanes>::capacity;
+    constexpr int batch_chunks = Batch<Lanes>::capacity / 2;  // what fits into the first-level cache
     const int chunks = body.particles.chunks(), batches = (chunks + batch_chunks - 1) / batch_chunks;
     // A few batches per piece of work, so that the scratch batch is made once for them.
     constexpr int per_piece = 16;

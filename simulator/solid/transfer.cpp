@@ -1,8 +1,8 @@
 #include "simulator/solid/transfer.hpp"
 
 #include "simulator/parallel.hpp"
-#include "simulator/solid/basis.hpp"
-#include "simulator/solid/packs.hpp"
+#include "simulator/solid/eight.hpp"
+#include "simulator/solid/stencil.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -25,119 +25,6 @@ auto with_kernel(const Simulation& s, F&& f) {
     default:
       return basis.template operator()<Geometry::three_dimensional>();
   }
-}
-
-Vector padded(const auto& v) {
-  Vector r{};
-  std::copy(v.begin(), v.end(), r.begin());
-  return r;
-}
-
-/// Eight numbers by channel, to be read and written one at a time.
-struct alignas(64) Channels {
-  std::array<double, 8> c{};
-  Lanes lanes() const { return Lanes::load(c.data()); }
-  static Channels of(const Lanes& a) {
-    Channels r;
-    a.store(r.c.data());
-    return r;
-  }
-};
-
-template <int D>
-std::array<double, D> read_vector(const double* columns) {
-  std::array<double, D> v;
-  for (int a = 0; a < D; ++a) v[a] = columns[a * chunk_size];
-  return v;
-}
-
-/// The nodes a particle sees: those of its field's tile, or, where its bit of the mask is set, of the next field's.
-struct OneField {
-  Lanes* first;
-  Lanes* at(int /*n*/) const { return first; }
-};
-struct TwoFields {
-  Lanes* first;
-  std::ptrdiff_t to_second;
-  std::uint32_t second;  // bit n: node n of the stencil (27 or 9 nodes, x fastest)
-  Lanes* at(int n) const { return first + ((second >> n) & 1u) * to_second; }
-};
-
-/// Adds value S + sum_a slope[a]_i to the nodes, where slope[a] varies along direction a and carries S along the others.
-template <int D, class Field>
-[[gnu::always_inline]] inline void scatter_to(const Weights& w, const Lanes& value,
-                                              const std::array<std::array<Lanes, 3>, D>& slope, const Field& to) {
-  using B = Block<D>;
-  for (int k = 0; k < (D == 3 ? 3 : 1); ++k) {
-    Lanes in_plane = value;
-    double Sz = 1.0;
-    if constexpr (D == 3) {
-      Sz = w.value[k][2];
-      in_plane = multiply_add(Sz, value, slope[2][k]);
-    }
-    for (int j = 0; j < 3; ++j) {
-      const double Sy = w.value[j][1], SySz = Sy * Sz;
-      const Lanes in_row = multiply_add(Sy, in_plane, Lanes(Sz) * slope[1][j]);
-      const int row = B::tile_node(w.base[0], w.base[1] + j, D == 3 ? w.base[2] + k : 0);
-      for (int i = 0; i < 3; ++i) {
-        Lanes& node = to.at(i + 3 * (j + 3 * k))[row + i];
-        node = multiply_add(w.value[i][0], in_row, multiply_add(SySz, slope[0][i], node));
-      }
-    }
-  }
-}
-template <int D>
-[[gnu::always_inline]] inline void scatter(const Weights& w, const Lanes& value,
-                                           const std::array<std::array<Lanes, 3>, D>& slope, const TwoFields& to) {
-  if (to.second == 0)
-    scatter_to<D>(w, value, slope, OneField{to.first});
-  else
-    scatter_to<D>(w, value, slope, to);
-}
-
-/// A sum over the nodes with the weights S, and with S along all directions but one, where another weight stands.
-template <int D>
-struct Gathered {
-  Lanes value;
-  std::array<Lanes, D> slope;
-  Lanes hoop;
-};
-enum class Slope { lever, gradient };
-
-template <Slope kind, bool hoop, int D, class Field>
-[[gnu::always_inline]] inline Gathered<D> gather_from(const Weights& w, const Field& from) {
-  using B = Block<D>;
-  const auto& along = kind == Slope::lever ? w.lever : w.gradient;
-  Gathered<D> sum;
-  for (int k = 0; k < (D == 3 ? 3 : 1); ++k) {
-    Lanes plane(0.0), plane_x(0.0), plane_y(0.0), plane_hoop(0.0);
-    for (int j = 0; j < 3; ++j) {
-      const int row = B::tile_node(w.base[0], w.base[1] + j, D == 3 ? w.base[2] + k : 0);
-      Lanes in_row(0.0), in_row_x(0.0), in_row_hoop(0.0);
-      for (int i = 0; i < 3; ++i) {
-        const Lanes& node = from.at(i + 3 * (j + 3 * k))[row + i];
-        in_row = multiply_add(w.value[i][0], node, in_row);
-        in_row_x = multiply_add(along[i][0], node, in_row_x);
-        if constexpr (hoop) in_row_hoop = multiply_add(w.hoop[i], node, in_row_hoop);
-      }
-      const double Sy = w.value[j][1];
-      plane = multiply_add(Sy, in_row, plane), plane_x = multiply_add(Sy, in_row_x, plane_x);
-      plane_y = multiply_add(along[j][1], in_row, plane_y);
-      if constexpr (hoop) plane_hoop = multiply_add(Sy, in_row_hoop, plane_hoop);
-    }
-    if constexpr (D == 3) {
-      const double Sz = w.value[k][2];
-      sum.value = multiply_add(Sz, plane, sum.value), sum.slope[0] = multiply_add(Sz, plane_x, sum.slope[0]);
-      sum.slope[1] = multiply_add(Sz, plane_y, sum.slope[1]), sum.slope[2] = multiply_add(along[k][2], plane, sum.slope[2]);
-    } else {
-      sum.value = plane, sum.slope[0] = plane_x, sum.slope[1] = plane_y, sum.hoop = plane_hoop;
-    }
-  }
-  return sum;
-}
-template <Slope kind, bool hoop, int D>
-[[gnu::always_inline]] inline Gathered<D> gather(const Weights& w, const TwoFields& from) {
-  return from.second == 0 ? gather_from<kind, hoop, D>(w, OneField{from.first}) : gather_from<kind, hoop, D>(w, from);
 }
 
 /// The bin of a body in a block, if it has particles there.
@@ -164,70 +51,113 @@ void for_each_share(Simulation& s, const TileView& tile, F&& f) {
     if (const Bin* bin = find_bin(s.bodies[b], tile.key)) f(b, s.bodies[b], *bin);
 }
 
-std::uint32_t second_field(const Particles& p, std::uint32_t i) {
-  return p.second_field.empty() ? 0u : p.second_field[i];
+/// The nodes that each of eight particles sees, from the first of the fields of their tile.
+template <std::size_t D>
+auto nodes_of(const Body& body, const Eight& eight, Lanes* fields) {
+  return [&body, &eight, first = fields + body.field * Block<D>::tile_nodes](std::size_t i) {
+    const auto& second = body.particles.second_field;
+    return TwoFields{first, Block<D>::tile_nodes, second.empty() ? 0u : second[eight.particle[i]]};
+  };
+}
+
+/// The motion of a tile's nodes, ghosts included: [field][node].
+template <int D>
+std::vector<Lanes> motion_of(const Simulation& s, const TileView& tile) {
+  std::vector<Lanes> motion(static_cast<std::size_t>(s.grid.fields) * Block<D>::tile_nodes);
+  for (int f = 0; f < s.grid.fields; ++f) {
+    Lanes* nodes = motion.data() + f * Block<D>::tile_nodes;
+    load_tile(s.grid, tile.number, f, nodes);
+    unfold<D>(s.boundaries, tile.key, nodes);
+  }
+  return motion;
 }
 
 /// Means over the cells of a block, weighted by volume. A cell is what is nearest to one node: there the gradient of a
 /// quadratic spline is linear, so a constant is the space below it.
-template <int D>
+template <std::size_t D>
 class CellMeans {
  public:
-  /// The cell of a particle whose stencil in the tile is known.
-  static int cell(const std::array<int, 3>& base) { return Block<D>::node(base[0], base[1], D == 3 ? base[2] : 0); }
-  static int cell(const std::array<double, D>& position, const BlockPosition& block, double inverse_h) {
-    std::array<int, 3> n{};
-    for (int a = 0; a < D; ++a) n[a] = nearest_node(position[a], inverse_h).node - block[a] * Block<D>::side;
-    return Block<D>::node(n[0], n[1], n[2]);
+  using Cells = std::array<int, 8>;  // of eight particles
+  static Cells cells(const std::array<Lanes, D>& nearest) { return node_numbers(nearest, Block<D>::side); }
+
+  void add(const Eight& eight, const Cells& cells, const Lanes& volume, const Lanes& value) {
+    const Lanes sum = volume * value;
+    for (int i = 0; i < eight.used; ++i) {
+      const auto cell = static_cast<std::size_t>(cells[static_cast<std::size_t>(i)]);
+      volume_[cell] += volume[i], sum_[cell] += sum[i];
+    }
   }
-  void add(int cell, double volume, double value) { volume_[cell] += volume, sum_[cell] += volume * value; }
-  double operator()(int cell) const { return sum_[cell] / volume_[cell]; }
+  Lanes operator()(const Cells& cells) const {
+    Lanes means;
+    for (int i = 0; i < 8; ++i) {
+      const auto cell = static_cast<std::size_t>(cells[static_cast<std::size_t>(i)]);
+      means.set(i, sum_[cell] / volume_[cell]);
+    }
+    return means;
+  }
 
  private:
   std::array<double, 64> volume_{}, sum_{};
 };
 
-/// Pressure with artificial viscosity (Pa), from the columns of `load`.
 template <int D>
-double total_pressure(const double* load) {
-  using L = typename Layout<D>::Load;
-  const double* sigma = load + L::stress * chunk_size;
-  return load[L::artificial_viscosity * chunk_size] - (sigma[0] + sigma[chunk_size] + sigma[2 * chunk_size]) / 3.0;
+SymmetricTensor<Lanes> read_stress(const Columns& load) {
+  const auto at = [&](int k) { return load[Layout<D>::Load::stress + k]; };
+  if constexpr (D == 3)
+    return {at(0), at(1), at(2), at(3), at(4), at(5)};
+  else
+    return {at(0), at(1), at(2), Lanes(0.0), Lanes(0.0), at(3)};
 }
 
+/// The pressure with artificial viscosity (Pa) of each cell of a tile, if the body wants pressures averaged.
 template <int D>
-CellMeans<D> cell_pressures(const Body& body, const Bin& bin, const BlockPosition& block, double inverse_h) {
+CellMeans<D> cell_pressures(const Body& body, const Bin& bin, const BlockPosition& block, double h) {
   using L = Layout<D>;
   CellMeans<D> means;
-  for (std::uint32_t i = bin.begin; i < bin.end; ++i) {
-    const int p = static_cast<int>(body.bins.order[i]);
-    const double* load = body.particles.load.particle(p);
-    const double volume = load[L::Load::mass * chunk_size] / load[L::Load::density * chunk_size];
-    means.add(CellMeans<D>::cell(read_vector<D>(body.particles.motion.particle(p)), block, inverse_h), volume,
-              total_pressure<D>(load));
-  }
+  if (!body.locking_cure) return means;
+  for_each_eight(body.bins, bin,
+                 {{body.particles.motion, L::Motion::position, D}, {body.particles.load, 0, L::Load::half_width}},
+                 [&](const Eight& eight) {
+                   const Columns motion(body.particles.motion, eight), load(body.particles.load, eight);
+                   const Lanes pressure = load[L::Load::artificial_viscosity] - trace(read_stress<D>(load)) / 3.0;
+                   const auto nearest = nearest_in_block(read_vector<D>(motion, L::Motion::position), block, h);
+                   means.add(eight, CellMeans<D>::cells(nearest), load[L::Load::mass] / load[L::Load::density], pressure);
+                 });
   return means;
 }
 
-/// The stress that pushes the grid (Pa): with artificial viscosity, and with the pressure of its cell where `pressure` is
-/// given.
+/// The stress that pushes the grid (Pa): with artificial viscosity, and with the pressure of its cell if the body wants that.
 template <int D>
-SymmetricTensor<double> pushing_stress(const double* load, const double* pressure) {
-  using L = typename Layout<D>::Load;
-  const auto at = [&](int k) { return load[(L::stress + k) * chunk_size]; };
-  SymmetricTensor<double> sigma{at(0), at(1), at(2), D == 3 ? at(3) : 0.0, D == 3 ? at(4) : 0.0, D == 3 ? at(5) : at(3)};
-  const double q = load[L::artificial_viscosity * chunk_size];
-  return add_to_diagonal(sigma, pressure ? total_pressure<D>(load) - q - *pressure : -q);
+SymmetricTensor<Lanes> pushing_stress(const Body& body, const Columns& load, const CellMeans<D>& pressures,
+                                      const Weights<D>& w) {
+  const SymmetricTensor<Lanes> sigma = read_stress<D>(load);
+  const Lanes q = load[Layout<D>::Load::artificial_viscosity];
+  if (!body.locking_cure) return add_to_diagonal(sigma, -q);
+  const Lanes pressure = q - trace(sigma) / 3.0;
+  return add_to_diagonal(sigma, pressure - q - pressures(CellMeans<D>::cells(w.nearest)));
+}
+
+/// Force per mass (m/s^2) at eight places.
+template <std::size_t D>
+std::array<Lanes, D> acceleration_fields(const Simulation& s, const std::array<Lanes, D>& position) {
+  std::array<Lanes, D> b;
+  for (std::size_t a = 0; a < D; ++a) b[a] = Lanes(s.gravity[a]);
+  if (!s.body_force) return b;
+  for (int i = 0; i < 8; ++i) {
+    Vector x{};
+    for (std::size_t a = 0; a < D; ++a) x[a] = position[a][i];
+    const Vector of_one = acceleration_field(s, x);
+    for (std::size_t a = 0; a < D; ++a) b[a].set(i, of_one[a]);
+  }
+  return b;
 }
 
 /// Where a loaded particle's surface is, and the force on it (N; per radian in the axisymmetric geometry).
-template <int D>
 struct LoadedPoint {
-  std::array<double, D> position;
-  Vector force;
+  Vector position{}, force{};
 };
 template <int D>
-LoadedPoint<D> loaded_point(const Simulation& s, const Body& body, int p, std::size_t load) {
+LoadedPoint loaded_point(const Simulation& s, const Body& body, int p, std::size_t load) {
   using L = Layout<D>;
   const double* motion = body.particles.motion.particle(p);
   const double* rest = body.particles.rest.particle(p);
@@ -247,13 +177,13 @@ LoadedPoint<D> loaded_point(const Simulation& s, const Body& body, int p, std::s
                     J * (inv.xy * area0[0] + inv.yy * area0[1] + inv.zy * area0[2]),
                     J * (inv.xz * area0[0] + inv.yz * area0[1] + inv.zz * area0[2])};
   const double size0 = std::sqrt(dot(area0, area0));
-  LoadedPoint<D> point{read_vector<D>(motion), {}};
+  LoadedPoint point;
+  for (int a = 0; a < D; ++a) point.position[static_cast<std::size_t>(a)] = motion[(L::Motion::position + a) * chunk_size];
   if (size0 == 0.0) return point;
   // The face lies half a particle away, along what was its normal.
   const Vector n = (body.particles.load.at(L::Load::half_width, p) / size0) * area0;
-  const Vector step{f.xx * n[0] + f.xy * n[1] + f.xz * n[2], f.yx * n[0] + f.yy * n[1] + f.yz * n[2],
-                    f.zx * n[0] + f.zy * n[1] + f.zz * n[2]};
-  for (int a = 0; a < D; ++a) point.position[a] += step[static_cast<std::size_t>(a)];
+  point.position = point.position + Vector{f.xx * n[0] + f.xy * n[1] + f.xz * n[2], f.yx * n[0] + f.yy * n[1] + f.yz * n[2],
+                                           f.zx * n[0] + f.zy * n[1] + f.zz * n[2]};
   const SurfaceLoad& l = body.loads[load];
   if (l.pressure) point.force = point.force - (*l.pressure)(s.time) * area;
   const double factor = l.amplitude ? (*l.amplitude)(s.time) : 1.0;  // a traction is per undeformed area
@@ -263,57 +193,81 @@ LoadedPoint<D> loaded_point(const Simulation& s, const Body& body, int p, std::s
 
 /// Weights of a point of a particle's surface at the nodes of the particle: a force on any other might find no mass there.
 template <Geometry G, Basis basis, std::size_t D = dimensions_of<G>>
-void find_surface_weights(const Particles& ps, int p, const std::array<double, D>& point, const BlockPosition& block, double h,
-                          Weights& w) {
+Weights<D> surface_weights(const Particles& ps, const Eight& one, const Vector& point, const BlockPosition& block, double h) {
   using L = Layout<D>;
-  const double half_width = ps.load.at(L::Load::half_width, p);
-  const auto particle = read_vector<D>(ps.motion.particle(p));
-  find_weights<G, basis>(particle, half_width, block, h, w);
-  std::array<double, 3> xi{};
+  const Lanes half_width = Columns(ps.load, one)[L::Load::half_width];
+  const auto particle = read_vector<D>(Columns(ps.motion, one), L::Motion::position);
+  Weights<D> w = find_weights<G, basis>(particle, half_width, block, h);
   for (std::size_t a = 0; a < D; ++a) {
     // What uGIMP knows of a particle has its undeformed width.
-    const double x =
-        basis == Basis::ugimp ? std::clamp(point[a], particle[a] - half_width, particle[a] + half_width) : point[a];
-    xi[a] = x / h - (block[a] * Block<D>::side + w.base[a]);
+    Lanes x(point[a]);
+    if (basis == Basis::ugimp) x = min(max(x, particle[a] - half_width), particle[a] + half_width);
+    const Lanes xi = x / h - (w.nearest[a] + Lanes(block[a] * Block<D>::side));
+    constexpr double no_width = 1e-9;
+    w.along[a] = basis == Basis::quadratic_spline ? quadratic_spline(xi, h) : ugimp(xi, h, Lanes(no_width));
   }
-  const Lanes offsets = pack(xi[0], xi[1], xi[2], 0.0);
-  constexpr double no_width = 1e-9;
-  if constexpr (basis == Basis::quadratic_spline)
-    quadratic_spline(offsets, h, w);
-  else
-    ugimp(offsets, h, no_width, w);
+  return w;
 }
 
-/// Whether a particle reaches a wall: the half axis of its deformed shape is not less than its distance.
+/// Calls f(force, place, weights, particle as an eight) for every force on the surface of a body's particles in a tile.
+template <Geometry G, Basis basis, class F>
+void for_each_load(const Simulation& s, const Body& body, const Bin& bin, const BlockPosition& block, F&& f) {
+  constexpr int D = dimensions_of<G>;
+  for (std::size_t l = 0; l < body.loads.size(); ++l)
+    for (std::uint32_t i = bin.begin; i < bin.end; ++i) {
+      const Eight one(body.bins.order[i]);
+      const LoadedPoint point = loaded_point<D>(s, body, static_cast<int>(body.bins.order[i]), l);
+      if (dot(point.force, point.force) == 0.0) continue;
+      f(point, surface_weights<G, basis>(body.particles, one, point.position, block, s.grid.cell_size), one);
+    }
+}
+
+/// The particles that reach a wall: the half axis of their deformed shape is not less than their distance.
 template <int D>
-bool reaches(const Simulation& s, const Body& body, int p, const std::array<double, D>& position, const Boundary& wall) {
+LanesMask reaching(const Simulation& s, const Body& body, const Eight& eight, const std::array<Lanes, D>& position,
+                   const Lanes& half_width, const Boundary& wall) {
   using L = Layout<D>;
-  const double distance = (position[wall.axis] - wall.position) * wall.inward;
-  if (distance > 2.0 * s.grid.cell_size) return false;
-  const double* F = body.particles.rest.particle(p) + L::Rest::deformation_gradient * chunk_size + wall.axis * D * chunk_size;
-  double stretch = 0.0;  // of the row of F that belongs to the normal
-  for (int a = 0; a < D; ++a) stretch += F[a * chunk_size] * F[a * chunk_size];
+  const double h = s.grid.cell_size;
+  const Lanes distance = (position[static_cast<std::size_t>(wall.axis)] - wall.position) * wall.inward;
+  const LanesMask near = distance <= 2.0 * h;
+  if (none(near)) return near;
+  const Columns rest(body.particles.rest, eight);
+  Lanes stretch(0.0);  // of the row of F that belongs to the normal
+  for (int a = 0; a < D; ++a) {
+    const Lanes F = rest[L::Rest::deformation_gradient + wall.axis * D + a];
+    stretch += F * F;
+  }
   constexpr double round_off = 1e-9;
-  return distance <= body.particles.load.at(L::Load::half_width, p) * std::sqrt(stretch) + round_off * s.grid.cell_size;
+  return near & (distance <= half_width * sqrt(stretch) + round_off * h);
 }
 
-/// Tells the nodes on the planes of the rigid walls that a particle reaches that it does.
-template <int D>
-void touch_walls(const Simulation& s, const Body& body, int p, const std::array<double, D>& position, const Weights& w,
-                 const BlockPosition& block, const TwoFields& to) {
+/// Tells the nodes on the planes of the rigid walls that particles reach that they do.
+template <int D, class FieldOf>
+void touch_walls(const Simulation& s, const Body& body, const Eight& eight, const std::array<Lanes, D>& position,
+                 const Lanes& half_width, const Weights<D>& w, const BlockPosition& block, const FieldOf& to) {
   using B = Block<D>;
   for (const Boundary& wall : s.boundaries) {
-    if (wall.kind != BoundaryKind::rigid_wall || !reaches<D>(s, body, p, position, wall)) continue;
-    const int plane = wall.node - block[wall.axis] * B::side - w.base[wall.axis] + 1;  // its place in the stencil
-    for (int k = 0; k < (D == 3 ? 3 : 1); ++k)
-      for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i) {
-          const int at[3] = {i, j, k};
-          if (at[wall.axis] != plane) continue;
-          if (w.value[i][0] * w.value[j][1] * (D == 3 ? w.value[k][2] : 1.0) == 0.0) continue;
-          Lanes& node = to.at(i + 3 * (j + 3 * k))[B::tile_node(w.base[0] + i, w.base[1] + j, D == 3 ? w.base[2] + k : 0)];
-          if (!touches(node[Channel::touch], wall)) node.set(Channel::touch, node[Channel::touch] + touch_number(wall));
-        }
+    if (wall.kind != BoundaryKind::rigid_wall) continue;
+    const auto axis = static_cast<std::size_t>(wall.axis);
+    const LanesMask reached = reaching<D>(s, body, eight, position, half_width, wall);
+    if (none(reached)) continue;
+    for (std::size_t p = 0; p < static_cast<std::size_t>(eight.used); ++p) {
+      if (!reached[static_cast<int>(p)]) continue;
+      // The wall's place in the stencil.
+      const int plane = wall.node - block[axis] * B::side - static_cast<int>(w.nearest[axis][static_cast<int>(p)]) + 1;
+      const TwoFields fields = to(p);
+      for (int k = 0; k < (D == 3 ? 3 : 1); ++k)
+        for (int j = 0; j < 3; ++j)
+          for (int i = 0; i < 3; ++i) {
+            const int at[3] = {i, j, k};
+            if (at[axis] != plane) continue;
+            double weight = 1.0;
+            for (std::size_t a = 0; a < D; ++a) weight *= w.along[a].value[static_cast<std::size_t>(at[a])][p];
+            if (weight == 0.0) continue;
+            Lanes& node = fields.at(i + 3 * (j + 3 * k))[w.corner[p] + B::tile_node(i, j, k)];
+            if (!touches(node[Channel::touch], wall)) node.set(Channel::touch, node[Channel::touch] + touch_number(wall));
+          }
+    }
   }
 }
 
@@ -321,107 +275,96 @@ template <Geometry G, Basis basis>
 void to_tile(Simulation& s, const TileView& tile, Carry carry) {
   constexpr int D = dimensions_of<G>;
   using L = Layout<D>;
-  const double h = s.grid.cell_size, inverse_h = 1.0 / h;
+  const double h = s.grid.cell_size;
   const bool force = carry != Carry::motion;
   const bool affine = s.numerics.particle_velocity == ParticleVelocity::aflip;
   const bool walls = std::any_of(s.boundaries.begin(), s.boundaries.end(),
                                  [](const Boundary& b) { return b.kind == BoundaryKind::rigid_wall; });
   const bool has_field_force = s.body_force || dot(s.gravity, s.gravity) > 0.0;
   const Lanes momentum_channels = pack(0, 1, 1, 1, 0, 0, 0, 0), force_channels = pack(0, 0, 0, 0, 1, 1, 1, 0);
-  const std::size_t length = static_cast<std::size_t>(s.grid.fields) * Block<D>::tile_nodes;
-  Weights w;
   Lanes* nodes = s.grid.tile(tile.number, 0);
-  std::fill(nodes, nodes + length, Lanes(0.0));
+  std::fill_n(nodes, s.grid.fields * Block<D>::tile_nodes, Lanes(0.0));
   for_each_share(s, tile, [&](std::size_t, const Body& body, const Bin& bin) {
     const Particles& ps = body.particles;
     CellMeans<D> pressures;
-    if (force && body.locking_cure) pressures = cell_pressures<D>(body, bin, tile.position, inverse_h);
-    for (std::uint32_t i = bin.begin; i < bin.end; ++i) {
-      const std::uint32_t p = body.bins.order[i];
-      const double* from = ps.motion.particle(static_cast<int>(p));
-      const double* load = ps.load.particle(static_cast<int>(p));
-      const auto x = read_vector<D>(from), v = read_vector<D>(from + L::Motion::velocity * chunk_size);
-      const double m = load[L::Load::mass * chunk_size];
-      find_weights<G, basis>(x, load[L::Load::half_width * chunk_size], tile.position, h, w);
-      const TwoFields to{s.grid.tile(tile.number, body.field), Block<D>::tile_nodes, second_field(ps, p)};
+    if (force) pressures = cell_pressures<D>(body, bin, tile.position, h);
+    for_each_eight(body.bins, bin, {{ps.motion, 0, L::Motion::count}}, [&](const Eight& eight) {
+      const Columns from(ps.motion, eight), load(ps.load, eight);
+      const auto x = read_vector<D>(from, L::Motion::position);
+      const Lanes m = load[L::Load::mass], half_width = load[L::Load::half_width];
+      const Weights<D> w = find_weights<G, basis>(x, half_width, tile.position, h);
 
-      // Channels of momentum and force, by direction: affine momentum m C and stress -V sigma.
-      std::array<double, 3> field_force{}, mv{};
-      for (int a = 0; a < D; ++a) mv[a] = m * v[a];
-      SymmetricTensor<double> f;  // -V sigma
+      // By channel: what is carried by S, and what by its slope along each direction, affine momentum m C and stress -V sigma.
+      Square value;
+      std::array<Square, D> slope;
+      StoredPack hoop_force;
+      value.fill(Lanes(0.0));
+      for (Square& along : slope) along.fill(Lanes(0.0));
+      value[Channel::mass] = m;
+      for (int a = 0; a < D; ++a) value[Channel::momentum + a] = m * from[L::Motion::velocity + a];
+      if (affine)
+        for (int a = 0; a < D; ++a)
+          for (int b = 0; b < D; ++b) slope[b][Channel::momentum + a] = m * from[L::Motion::affine + D * a + b];
       if (force) {
-        double pressure = 0.0;
-        if (body.locking_cure) pressure = pressures(CellMeans<D>::cell(w.base));
-        f = (-m / load[L::Load::density * chunk_size]) * pushing_stress<D>(load, body.locking_cure ? &pressure : nullptr);
-        if (has_field_force) {
-          const Vector b = acceleration_field(s, padded(x));
-          for (std::size_t a = 0; a < D; ++a) field_force[a] = m * b[a];
+        const SymmetricTensor<Lanes> f = (-m / load[L::Load::density]) * pushing_stress<D>(body, load, pressures, w);
+        const std::array<std::array<Lanes, 3>, 3> columns = {{{f.xx, f.xy, f.xz}, {f.xy, f.yy, f.yz}, {f.xz, f.yz, f.zz}}};
+        for (int b = 0; b < D; ++b)
+          for (int a = 0; a < D; ++a) slope[b][Channel::force + a] = columns[b][a];
+        hoop_force = f.zz;
+      }
+      if (force && has_field_force) {
+        const auto g = acceleration_fields(s, x);
+        for (int a = 0; a < D; ++a) value[Channel::force + a] = m * g[a];
+      }
+
+      value = transposed(value);
+      for (Square& along : slope) along = transposed(along);
+      const auto to = nodes_of<D>(body, eight, nodes);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(eight.used); ++i) {
+        Slopes<D> along;
+        for (std::size_t b = 0; b < D; ++b) {
+          const Lanes A = momentum_channels * slope[b][i], S = force_channels * slope[b][i];
+          for (std::size_t k = 0; k < 3; ++k)
+            along[b][k] = multiply_add(w.along[b].lever[k][i], A, Lanes(w.along[b].gradient[k][i]) * S);
         }
+        if constexpr (G == Geometry::axisymmetric) {
+          const Lanes f = pack(0.0, 0.0, 0.0, 0.0, hoop_force[i]);
+          for (std::size_t k = 0; k < 3; ++k) along[0][k] = multiply_add(w.hoop[k][i], f, along[0][k]);
+        }
+        scatter<D>(w, i, value[i], along, to(i));
       }
-      const double mC = affine ? m : 0.0;
-      const auto C = [&](int a, int b) { return mC * from[(L::Motion::affine + D * a + b) * chunk_size]; };
-      const Lanes value = pack(m, mv[0], mv[1], mv[2], field_force[0], field_force[1], field_force[2]);
-      std::array<Lanes, D> both;
-      if constexpr (D == 3)
-        both = {pack(0.0, C(0, 0), C(1, 0), C(2, 0), f.xx, f.xy, f.xz), pack(0.0, C(0, 1), C(1, 1), C(2, 1), f.xy, f.yy, f.yz),
-                pack(0.0, C(0, 2), C(1, 2), C(2, 2), f.xz, f.yz, f.zz)};
-      else
-        both = {pack(0.0, C(0, 0), C(1, 0), 0.0, f.xx, f.xy), pack(0.0, C(0, 1), C(1, 1), 0.0, f.xy, f.yy)};
-      std::array<std::array<Lanes, 3>, D> slope;
-      for (int a = 0; a < D; ++a) {
-        const Lanes A = momentum_channels * both[a], S = force_channels * both[a];
-        for (int k = 0; k < 3; ++k) slope[a][k] = multiply_add(w.lever[k][a], A, Lanes(w.gradient[k][a]) * S);
-      }
-      if constexpr (G == Geometry::axisymmetric)
-        for (int k = 0; k < 3; ++k) slope[0][k] = multiply_add(w.hoop[k], pack(0.0, 0.0, 0.0, 0.0, f.zz), slope[0][k]);
-      scatter<D>(w, value, slope, to);
-      if (walls) touch_walls<D>(s, body, static_cast<int>(p), x, w, tile.position, to);
-    }
-    if (!force) return;
-    for (std::size_t l = 0; l < body.loads.size(); ++l)
-      for (std::uint32_t i = bin.begin; i < bin.end; ++i) {
-        const std::uint32_t p = body.bins.order[i];
-        const LoadedPoint<D> point = loaded_point<D>(s, body, static_cast<int>(p), l);
-        if (dot(point.force, point.force) == 0.0) continue;
-        const Lanes value = pack(0.0, 0.0, 0.0, 0.0, point.force[0], point.force[1], point.force[2]);
-        find_surface_weights<G, basis>(ps, static_cast<int>(p), point.position, tile.position, h, w);
-        scatter<D>(w, value, {}, {s.grid.tile(tile.number, body.field), Block<D>::tile_nodes, second_field(ps, p)});
-      }
+      if (walls) touch_walls<D>(s, body, eight, x, half_width, w, tile.position, to);
+    });
+    if (force)
+      for_each_load<G, basis>(s, body, bin, tile.position,
+                              [&](const LoadedPoint& point, const Weights<D>& w, const Eight& one) {
+                                const Lanes value = pack(0.0, 0.0, 0.0, 0.0, point.force[0], point.force[1], point.force[2]);
+                                scatter<D>(w, 0, value, {}, nodes_of<D>(body, one, nodes)(0));
+                              });
   });
   for (int field = 0; field < s.grid.fields; ++field) fold<D>(s.boundaries, tile.key, s.grid.tile(tile.number, field));
 }
 
-/// The books of the particles of a tile. Four accounts stand side by side in lanes: change by the grid, by the filter, the
-/// state at the end, and the motion across itself.
+/// A Change summed over particles, eight side by side.
 template <std::size_t D>
-class ParticleBooks {
+class Changes {
  public:
-  using Vec = std::array<double, D>;
-  void add(double m, const Vec& x, const Vec& x_new, const Vec& v, const Vec& dv, const Vec& v_flip, const Vec& filtered,
-           const Vec& v_new) {
-    std::array<Lanes, D> X, P;
-    Lanes energy(0.0);
-    for (std::size_t a = 0; a < D; ++a) {
-      X[a] = pack(x[a], x[a], x_new[a], x_new[a] - x[a]);
-      P[a] = m * pack(dv[a], filtered[a], v_new[a], v_new[a]);
-      energy = energy + P[a] * pack(v[a] + 0.5 * dv[a], v_flip[a] + 0.5 * filtered[a], 0.5 * v_new[a], 0.0);
-      momentum_[a] += P[a];
-    }
-    energy_ += energy;
-    angular_[2] += X[0] * P[1] - X[1] * P[0];
+  using Vec = std::array<Lanes, D>;
+  /// An impulse at a place, and the mean velocity while it acts.
+  void add(const Vec& impulse, const Vec& x, const Vec& mean_velocity) {
+    for (std::size_t a = 0; a < D; ++a) energy_ += impulse[a] * mean_velocity[a], momentum_[a] += impulse[a];
+    angular_[2] += x[0] * impulse[1] - x[1] * impulse[0];
     if constexpr (D == 3) {
-      angular_[0] += X[1] * P[2] - X[2] * P[1];
-      angular_[1] += X[2] * P[0] - X[0] * P[2];
+      angular_[0] += x[1] * impulse[2] - x[2] * impulse[1];
+      angular_[1] += x[2] * impulse[0] - x[0] * impulse[2];
     }
   }
-  void close(ParticleTally& tally) const {
-    const auto account = [&](int lane) {
-      return Change{energy_[lane],
-                    {momentum_[0][lane], momentum_[1][lane], momentum_[2][lane]},
-                    {angular_[0][lane], angular_[1][lane], angular_[2][lane]}};
-    };
-    tally.flip += account(0), tally.filter += account(1), tally.state += account(2);
-    tally.advection.angular_momentum = tally.advection.angular_momentum + account(3).angular_momentum;
+  Change total() const {
+    Change sum;
+    for (int i = 0; i < 8; ++i)
+      sum +=
+          {energy_[i], {momentum_[0][i], momentum_[1][i], momentum_[2][i]}, {angular_[0][i], angular_[1][i], angular_[2][i]}};
+    return sum;
   }
 
  private:
@@ -429,181 +372,206 @@ class ParticleBooks {
   std::array<Lanes, 3> momentum_{}, angular_{};
 };
 
+/// Power of a stress on the mean velocity gradient over a change of the grid's velocities (W/m^3).
+template <Geometry G, std::size_t D>
+Lanes stress_power(const SymmetricTensor<Lanes>& sigma, const GatheredByChannel<D>& grid) {
+  const auto mean = [](const Square& slope, int a) {
+    return Lanes(slope[Channel::velocity + a]) - 0.5 * Lanes(slope[Channel::change + a]);
+  };
+  const auto L = [&](int a, int b) { return mean(grid.slope[b], a); };
+  Lanes power = sigma.xx * L(0, 0) + sigma.yy * L(1, 1) + sigma.xy * (L(1, 0) + L(0, 1));
+  if constexpr (D == 3) power += sigma.zz * L(2, 2) + sigma.xz * (L(2, 0) + L(0, 2)) + sigma.yz * (L(2, 1) + L(1, 2));
+  if constexpr (G == Geometry::axisymmetric) power += sigma.zz * mean(grid.hoop, 0);
+  return power;
+}
+
+/// Lists those of eight particles that leave their block, and those that are beyond an outflow.
+template <std::size_t D>
+void list_leavers(const Simulation& s, const Eight& eight, const std::array<Lanes, D>& x, const BlockPosition& block,
+                  std::vector<std::uint32_t>& moved, std::vector<std::uint32_t>& left) {
+  const auto list = [&](const LanesMask& which, std::vector<std::uint32_t>& to) {
+    if (none(which)) return;
+    for (int i = 0; i < eight.used; ++i)
+      if (which[i]) to.push_back(eight.particle[static_cast<std::size_t>(i)]);
+  };
+  LanesMask stays(true), out(false);
+  for (std::size_t a = 0; a < D; ++a) {
+    const Lanes node = nearest_node(x[a], 1.0 / s.grid.cell_size);
+    stays &= (node >= block[a] * Block<D>::side) & (node < (block[a] + 1) * Block<D>::side);
+  }
+  for (const Boundary& b : s.boundaries)
+    if (b.kind == BoundaryKind::outflow) out |= (x[static_cast<std::size_t>(b.axis)] - b.position) * b.inward < 0.0;
+  list(!stays, moved), list(out, left);
+}
+
 template <Geometry G, Basis basis>
 void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, ParticleTally& tally,
                std::vector<std::vector<std::uint32_t>>& moved, std::vector<std::vector<std::uint32_t>>& left) {
   constexpr int D = dimensions_of<G>;
+  constexpr bool ring = G == Geometry::axisymmetric;
   using L = Layout<D>;
-  using Vec = std::array<double, D>;
-  const double h = s.grid.cell_size, inverse_h = 1.0 / h;
+  using Vec = std::array<Lanes, D>;
+  const double h = s.grid.cell_size;
   const bool aflip = s.numerics.particle_velocity == ParticleVelocity::aflip;
   const double filter_time = s.numerics.filter_time * h / s.extremes.wave_speed;
   const double beta = aflip ? -std::expm1(-step.dt / filter_time) : 0.0;
   const bool external = s.has_external_forces();
-  const bool outflow =
-      std::any_of(s.boundaries.begin(), s.boundaries.end(), [](const Boundary& b) { return b.kind == BoundaryKind::outflow; });
-  const int fields = s.grid.fields;
-  Weights w;
-  std::vector<Lanes> motion(static_cast<std::size_t>(fields) * Block<D>::tile_nodes);
-  for (int f = 0; f < fields; ++f) {
-    Lanes* nodes = motion.data() + f * Block<D>::tile_nodes;
-    load_tile(s.grid, tile.number, f, nodes);
-    unfold<D>(s.boundaries, tile.key, nodes);
-  }
+  std::vector<Lanes> motion = motion_of<D>(s, tile);
   Lanes* remapped = s.grid.tile(tile.number, 0);
-  if (step.remap) std::fill(remapped, remapped + motion.size(), Lanes(0.0));
-  ParticleBooks<D> books;
+  if (step.remap) std::fill_n(remapped, motion.size(), Lanes(0.0));
+  Changes<D> flip, filter, state, advection, field_forces;
+  Lanes internal(0.0);
 
   for_each_share(s, tile, [&](std::size_t number, Body& body, const Bin& bin) {
     Particles& ps = body.particles;
     CellMeans<D> pressures;
-    if (external && body.locking_cure) pressures = cell_pressures<D>(body, bin, tile.position, inverse_h);
-    for (std::uint32_t i = bin.begin; i < bin.end; ++i) {
-      const std::uint32_t p = body.bins.order[i];
-      const double* from = ps.motion.particle(static_cast<int>(p));
-      const double* load = ps.load.particle(static_cast<int>(p));
-      double* to = ps.next_motion.particle(static_cast<int>(p));
-      const Vec x = read_vector<D>(from), v = read_vector<D>(from + L::Motion::velocity * chunk_size);
-      const double m = load[L::Load::mass * chunk_size];
-      find_weights<G, basis>(x, load[L::Load::half_width * chunk_size], tile.position, h, w);
-      const TwoFields field{motion.data() + body.field * Block<D>::tile_nodes, Block<D>::tile_nodes, second_field(ps, p)};
-      const Gathered<D> grid = gather<Slope::lever, false, D>(w, field);
-      const Channels value = Channels::of(grid.value);
+    if (external) pressures = cell_pressures<D>(body, bin, tile.position, h);
+    for_each_eight(body.bins, bin,
+                   {{ps.motion, L::Motion::position, 2 * D},
+                    {ps.load, L::Load::mass, 1},
+                    {ps.load, L::Load::half_width, 1},
+                    {ps.next_motion, 0, L::Motion::count}},
+                   [&](const Eight& eight) {
+                     const Columns from(ps.motion, eight), load(ps.load, eight);
+                     Columns to(ps.next_motion, eight);
+                     const Vec x = read_vector<D>(from, L::Motion::position), v = read_vector<D>(from, L::Motion::velocity);
+                     const Lanes m = load[L::Load::mass];
+                     const Weights<D> w = find_weights<G, basis>(x, load[L::Load::half_width], tile.position, h);
+                     const GatheredByChannel<D> grid = gather<Slope::lever, false>(w, nodes_of<D>(body, eight, motion.data()));
 
-      Vec v_flip, v_new, x_new, filtered, dv, v_grid;
-      for (int a = 0; a < D; ++a) {
-        v_grid[a] = value.c[Channel::velocity + a], dv[a] = value.c[Channel::change + a];
-        v_flip[a] = v[a] + dv[a];
-        filtered[a] = beta * (v_grid[a] - v_flip[a]);
-        v_new[a] = v_flip[a] + filtered[a];
-        x_new[a] = x[a] + step.dt * v_grid[a];
-        to[a * chunk_size] = x_new[a], to[(L::Motion::velocity + a) * chunk_size] = v_new[a];
-      }
-      std::array<Lanes, D> affine_momentum;
-      for (int b = 0; b < D; ++b) {
-        std::array<double, 3> mC{};
-        const Channels moment = Channels::of(grid.slope[b]);
-        for (int a = 0; a < D; ++a) {
-          const double C = aflip ? moment.c[Channel::velocity + a] / w.spread[b] : 0.0;
-          to[(L::Motion::affine + D * a + b) * chunk_size] = C;
-          mC[a] = m * C;
-        }
-        affine_momentum[b] = pack(0.0, mC[0], mC[1], mC[2]);
-      }
+                     Vec v_new, x_new;
+                     Vec by_grid, by_filter, in_all, mean_by_grid, mean_by_filter, mean_in_all,
+                         way;  // impulses, mean velocities
+                     const Lanes booked = eight.only_used(m);
+                     for (int a = 0; a < D; ++a) {
+                       const Lanes v_grid = grid.value[Channel::velocity + a], dv = grid.value[Channel::change + a];
+                       const Lanes v_flip = v[a] + dv, filtered = beta * (v_grid - v_flip);
+                       v_new[a] = v_flip + filtered;
+                       x_new[a] = x[a] + step.dt * v_grid;
+                       to.write(L::Motion::position + a, x_new[a]), to.write(L::Motion::velocity + a, v_new[a]);
+                       by_grid[a] = booked * dv, mean_by_grid[a] = v[a] + 0.5 * dv;
+                       by_filter[a] = booked * filtered, mean_by_filter[a] = v_flip + 0.5 * filtered;
+                       in_all[a] = booked * v_new[a], mean_in_all[a] = 0.5 * v_new[a];
+                       way[a] = x_new[a] - x[a];
+                     }
+                     flip.add(by_grid, x, mean_by_grid), filter.add(by_filter, x, mean_by_filter);
+                     state.add(in_all, x_new, mean_in_all), advection.add(in_all, way, Vec{});
+                     std::array<Square, D> affine_momentum;
+                     for (Square& along : affine_momentum) along.fill(Lanes(0.0));
+                     for (int b = 0; b < D; ++b)
+                       for (int a = 0; a < D; ++a) {
+                         const Lanes C = aflip ? Lanes(grid.slope[b][Channel::velocity + a]) / w.along[b].spread : Lanes(0.0);
+                         to.write(L::Motion::affine + D * a + b, C);
+                         affine_momentum[b][Channel::momentum + a] = m * C;
+                       }
 
-      books.add(m, x, x_new, v, dv, v_flip, filtered, v_new);
-      if (external) {
-        const Vector X = padded(x), mean = padded(v_grid) - 0.5 * padded(dv);
-        const Vector impulse = (step.dt_velocity * m) * acceleration_field(s, X);
-        tally.external += {dot(impulse, mean), impulse, cross(X, impulse)};
-        double pressure = 0.0;
-        if (body.locking_cure) pressure = pressures(CellMeans<D>::cell(w.base));
-        const SymmetricTensor<double> sigma = pushing_stress<D>(load, body.locking_cure ? &pressure : nullptr);
-        const Gathered<D> g = gather<Slope::gradient, G == Geometry::axisymmetric, D>(w, field);
-        double power = 0.0;
-        const auto rate = [](const Lanes& slope, int a) {
-          return slope[Channel::velocity + a] - 0.5 * slope[Channel::change + a];
-        };
-        power += sigma.xx * rate(g.slope[0], 0) + sigma.yy * rate(g.slope[1], 1) +
-                 sigma.xy * (rate(g.slope[0], 1) + rate(g.slope[1], 0));
-        if constexpr (D == 3)
-          power += sigma.zz * rate(g.slope[2], 2) + sigma.xz * (rate(g.slope[0], 2) + rate(g.slope[2], 0)) +
-                   sigma.yz * (rate(g.slope[1], 2) + rate(g.slope[2], 1));
-        if constexpr (G == Geometry::axisymmetric) power += sigma.zz * rate(g.hoop, 0);
-        tally.internal -= step.dt_velocity * m / load[L::Load::density * chunk_size] * power;
-      }
+                     if (external) {
+                       const Vec g = acceleration_fields(s, x);
+                       Vec impulse, mean;
+                       for (int a = 0; a < D; ++a) {
+                         impulse[a] = step.dt_velocity * booked * g[a];
+                         mean[a] = Lanes(grid.value[Channel::velocity + a]) - 0.5 * Lanes(grid.value[Channel::change + a]);
+                       }
+                       field_forces.add(impulse, x, mean);
+                       const auto slopes = gather<Slope::gradient, ring>(w, nodes_of<D>(body, eight, motion.data()));
+                       internal -= step.dt_velocity * booked / load[L::Load::density] *
+                                   stress_power<G>(pushing_stress<D>(body, load, pressures, w), slopes);
+                     }
 
-      if (step.remap) {
-        const Vector mv = m * padded(v_new);
-        std::array<std::array<Lanes, 3>, D> slope;
-        for (int a = 0; a < D; ++a)
-          for (int k = 0; k < 3; ++k) slope[a][k] = Lanes(w.lever[k][a]) * affine_momentum[a];
-        scatter<D>(w, pack(m, mv[0], mv[1], mv[2]), slope,
-                   {s.grid.tile(tile.number, body.field), Block<D>::tile_nodes, second_field(ps, p)});
-      }
-      bool stays = true;
-      for (int a = 0; a < D; ++a) stays = stays && block_of_node<D>(nearest_node(x_new[a], inverse_h).node) == tile.position[a];
-      if (!stays) moved[number].push_back(p);
-      if (outflow)
-        for (const Boundary& b : s.boundaries)
-          if (b.kind == BoundaryKind::outflow && (x_new[b.axis] - b.position) * b.inward < 0.0) {
-            left[number].push_back(p);
-            break;
-          }
-    }
-    if (!external) return;
-    for (std::size_t l = 0; l < body.loads.size(); ++l)
-      for (std::uint32_t i = bin.begin; i < bin.end; ++i) {
-        const std::uint32_t p = body.bins.order[i];
-        const LoadedPoint<D> point = loaded_point<D>(s, body, static_cast<int>(p), l);
-        if (dot(point.force, point.force) == 0.0) continue;
-        find_surface_weights<G, basis>(ps, static_cast<int>(p), point.position, tile.position, h, w);
-        const TwoFields field{motion.data() + body.field * Block<D>::tile_nodes, Block<D>::tile_nodes, second_field(ps, p)};
-        const Channels value = Channels::of(gather<Slope::gradient, false, D>(w, field).value);
-        Vector mean{};
-        for (int a = 0; a < D; ++a)
-          mean[static_cast<std::size_t>(a)] = value.c[Channel::velocity + a] - 0.5 * value.c[Channel::change + a];
-        const Vector impulse = step.dt_velocity * point.force;
-        tally.external += {dot(impulse, mean), impulse, cross(padded(point.position), impulse)};
-      }
+                     if (step.remap) {
+                       Square momentum;
+                       momentum.fill(Lanes(0.0));
+                       momentum[Channel::mass] = m;
+                       for (int a = 0; a < D; ++a) momentum[Channel::momentum + a] = m * v_new[a];
+                       momentum = transposed(momentum);
+                       for (Square& along : affine_momentum) along = transposed(along);
+                       const auto nodes = nodes_of<D>(body, eight, remapped);
+                       for (std::size_t i = 0; i < static_cast<std::size_t>(eight.used); ++i) {
+                         Slopes<D> slope;
+                         for (std::size_t a = 0; a < D; ++a)
+                           for (std::size_t k = 0; k < 3; ++k)
+                             slope[a][k] = Lanes(w.along[a].lever[k][i]) * affine_momentum[a][i];
+                         scatter<D>(w, i, momentum[i], slope, nodes(i));
+                       }
+                     }
+                     list_leavers<D>(s, eight, x_new, tile.position, moved[number], left[number]);
+                   });
+    if (external)
+      for_each_load<G, basis>(
+          s, body, bin, tile.position, [&](const LoadedPoint& point, const Weights<D>& w, const Eight& one) {
+            const auto value = gather<Slope::gradient, false>(w, nodes_of<D>(body, one, motion.data())).value;
+            Vector mean{};
+            for (int a = 0; a < D; ++a)
+              mean[static_cast<std::size_t>(a)] = value[Channel::velocity + a][0] - 0.5 * value[Channel::change + a][0];
+            const Vector impulse = step.dt_velocity * point.force;
+            tally.external += {dot(impulse, mean), impulse, cross(point.position, impulse)};
+          });
   });
-  books.close(tally);
+  tally.flip += flip.total(), tally.filter += filter.total(), tally.state += state.total();
+  tally.external += field_forces.total();
+  tally.advection.angular_momentum = advection.total().angular_momentum;
+  for (int i = 0; i < 8; ++i) tally.internal += internal[i];
   if (step.remap)
-    for (int f = 0; f < fields; ++f) fold<D>(s.boundaries, tile.key, s.grid.tile(tile.number, f));
+    for (int f = 0; f < s.grid.fields; ++f) fold<D>(s.boundaries, tile.key, s.grid.tile(tile.number, f));
 }
 
 template <Geometry G, Basis basis>
 double gradients(Simulation& s, const TileView& tile) {
   constexpr int D = dimensions_of<G>;
+  constexpr bool ring = G == Geometry::axisymmetric;
+  constexpr int diagonal[] = {0, D == 3 ? 4 : 3, D == 3 ? 8 : 4};
   using L = Layout<D>;
-  const double h = s.grid.cell_size, inverse_h = 1.0 / h;
-  Weights w;
-  std::vector<Lanes> motion(static_cast<std::size_t>(s.grid.fields) * Block<D>::tile_nodes);
-  for (int f = 0; f < s.grid.fields; ++f) {
-    Lanes* nodes = motion.data() + f * Block<D>::tile_nodes;
-    load_tile(s.grid, tile.number, f, nodes);
-    unfold<D>(s.boundaries, tile.key, nodes);
-  }
-  double largest_square = 0.0;
+  using Gradient = std::array<Lanes, L::tensor_components>;
+  struct OfEight {
+    Gradient gradient;
+    std::array<int, 8> cells;
+  };
+  const auto trace_of = [&](const Gradient& l) { return l[diagonal[0]] + l[diagonal[1]] + l[diagonal[2]]; };
+  const double h = s.grid.cell_size;
+  std::vector<Lanes> motion = motion_of<D>(s, tile);
+  std::vector<OfEight> found;
+  Lanes largest_square(0.0);
   for_each_share(s, tile, [&](std::size_t, Body& body, const Bin& bin) {
     Particles& ps = body.particles;
     CellMeans<D> rates;
-    const auto trace_of = [](const double* l) {
-      return dimensions_of<G> == 3 ? l[0] + l[4 * chunk_size] + l[8 * chunk_size]
-                                   : l[0] + l[3 * chunk_size] + l[4 * chunk_size];
-    };
-    for (std::uint32_t i = bin.begin; i < bin.end; ++i) {
-      const std::uint32_t p = body.bins.order[i];
-      const double* load = ps.load.particle(static_cast<int>(p));
-      const auto x = read_vector<D>(ps.motion.particle(static_cast<int>(p)));
-      find_weights<G, basis>(x, load[L::Load::half_width * chunk_size], tile.position, h, w);
-      const TwoFields field{motion.data() + body.field * Block<D>::tile_nodes, Block<D>::tile_nodes, second_field(ps, p)};
-      const Gathered<D> grid = gather<Slope::gradient, G == Geometry::axisymmetric, D>(w, field);
-      double* l = ps.gradient.particle(static_cast<int>(p));
-      for (int b = 0; b < D; ++b) {
-        const Channels slope = Channels::of(grid.slope[b]);
-        for (int a = 0; a < D; ++a) l[(D * a + b) * chunk_size] = slope.c[Channel::velocity + a];
-      }
-      if constexpr (D == 2) l[4 * chunk_size] = G == Geometry::axisymmetric ? grid.hoop[Channel::velocity] : 0.0;
-      if (body.locking_cure)
-        rates.add(CellMeans<D>::cell(w.base), load[L::Load::mass * chunk_size] / load[L::Load::density * chunk_size],
-                  trace_of(l));
-    }
-    for (std::uint32_t i = bin.begin; i < bin.end; ++i) {
-      const int p = static_cast<int>(body.bins.order[i]);
-      double* l = ps.gradient.particle(p);
+    found.clear();
+    for_each_eight(body.bins, bin,
+                   {{ps.motion, L::Motion::position, D},
+                    {ps.load, L::Load::mass, 2},
+                    {ps.load, L::Load::half_width, 1},
+                    {ps.gradient, 0, L::tensor_components}},
+                   [&](const Eight& eight) {
+                     const Columns load(ps.load, eight);
+                     const auto x = read_vector<D>(Columns(ps.motion, eight), L::Motion::position);
+                     const Weights<D> w = find_weights<G, basis>(x, load[L::Load::half_width], tile.position, h);
+                     const GatheredByChannel<D> grid =
+                         gather<Slope::gradient, ring>(w, nodes_of<D>(body, eight, motion.data()));
+                     OfEight of{{}, CellMeans<D>::cells(w.nearest)};
+                     for (std::size_t a = 0; a < D; ++a)
+                       for (std::size_t b = 0; b < D; ++b) of.gradient[D * a + b] = grid.slope[b][Channel::velocity + a];
+                     if constexpr (ring) of.gradient[4] = grid.hoop[Channel::velocity];
+                     if (body.locking_cure)
+                       rates.add(eight, of.cells, load[L::Load::mass] / load[L::Load::density], trace_of(of.gradient));
+                     found.push_back(of);
+                   });
+    const OfEight* of = found.data();
+    for_each_eight(body.bins, bin, {}, [&](const Eight& eight) {
+      Gradient l = of->gradient;
       if (body.locking_cure) {
-        const int cell = CellMeans<D>::cell(read_vector<D>(ps.motion.particle(p)), tile.position, inverse_h);
-        const double correction = (rates(cell) - trace_of(l)) / 3.0;
-        for (const int k : {0, D == 3 ? 4 : 3, D == 3 ? 8 : 4}) l[k * chunk_size] += correction;
+        const Lanes correction = (rates(of->cells) - trace_of(l)) / 3.0;
+        for (const int k : diagonal) l[k] += correction;
       }
-      double square = 0.0;
-      for (int k = 0; k < L::tensor_components; ++k) square += l[k * chunk_size] * l[k * chunk_size];
-      largest_square = std::max(largest_square, square);
-      if (!(square < 1e300)) largest_square = 1e300;  // not a number is the largest of all
-    }
+      Columns to(ps.gradient, eight);
+      Lanes square(0.0);
+      for (std::size_t k = 0; k < l.size(); ++k) square += l[k] * l[k], to.write(static_cast<int>(k), l[k]);
+      constexpr double not_a_number = 1e300;  // is the largest of all
+      largest_square = max(largest_square, select(square < not_a_number, square, Lanes(not_a_number)));
+      ++of;
+    });
   });
-  return std::sqrt(largest_square);
+  double largest = 0.0;
+  for (int i = 0; i < 8; ++i) largest = std::max(largest, std::sqrt(largest_square[i]));
+  return largest;
 }
 
 }  // namespace

@@ -308,26 +308,31 @@ TEST(GridToParticles, GivesUniformExpansionUpToTheAxis) {
 
 // Weights -----------------------------------------------------------------------------------------------------------------
 
-/// What the weights of one direction have in common.
-void expect_partition_of_unity(const Weights& w, std::size_t a) {
-  const auto sum = [&](const std::array<Weights::Row, 3>& rows) { return rows[0][a] + rows[1][a] + rows[2][a]; };
+/// What the weights of a particle (lane) along one direction have in common.
+void expect_partition_of_unity(const LineWeights& w, std::size_t lane) {
+  const auto sum = [&](const std::array<StoredPack, 3>& rows) { return rows[0][lane] + rows[1][lane] + rows[2][lane]; };
   EXPECT_NEAR(sum(w.value), 1.0, 1e-12);
   EXPECT_NEAR(sum(w.gradient), 0.0, 1e-12 / h);
   EXPECT_NEAR(sum(w.lever), 0.0, 1e-12 * h);
-  for (const Weights::Row& S : w.value) EXPECT_GE(S[a], 0.0);
-  EXPECT_GT(w.spread[a], 0.0);
+  for (const StoredPack& S : w.value) EXPECT_GE(S[lane], 0.0);
+  EXPECT_GT(w.spread[lane], 0.0);
 }
 
 TEST(Weights, SumToOneAndTheirGradientsToZero) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(0.0, 3.5 * h), width(0.05 * h, 0.5 * h);
-  for (int i = 0; i < 1000; ++i) {
-    const std::array<double, 3> x{place(random), place(random), place(random)};
-    const double l = width(random);
-    Weights spline, wide;
-    find_weights<Geometry::three_dimensional, Basis::quadratic_spline>(x, l, {0, 0, 0}, h, spline);
-    find_weights<Geometry::three_dimensional, Basis::ugimp>(x, l, {0, 0, 0}, h, wide);
-    for (std::size_t a = 0; a < 3; ++a) expect_partition_of_unity(spline, a), expect_partition_of_unity(wide, a);
+  for (int i = 0; i < 125; ++i) {
+    std::array<Lanes, 3> x;
+    Lanes l;
+    for (int lane = 0; lane < 8; ++lane) {
+      l.set(lane, width(random));
+      for (Lanes& component : x) component.set(lane, place(random));
+    }
+    const auto spline = find_weights<Geometry::three_dimensional, Basis::quadratic_spline>(x, l, {0, 0, 0}, h);
+    const auto wide = find_weights<Geometry::three_dimensional, Basis::ugimp>(x, l, {0, 0, 0}, h);
+    for (std::size_t lane = 0; lane < 8; ++lane)
+      for (std::size_t a = 0; a < 3; ++a)
+        expect_partition_of_unity(spline.along[a], lane), expect_partition_of_unity(wide.along[a], lane);
   }
 }
 
@@ -335,17 +340,21 @@ TEST(Weights, SumToOneAndTheirGradientsToZero) {
 TEST(Weights, OfRingsGiveHoopStretching) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> width(0.05 * h, 0.5 * h), radius(0.0, 7.0 * h);
-  for (int i = 0; i < 1000; ++i) {
-    const double l = width(random), r = l + radius(random);
-    const double n = nearest_node(r, 1.0 / h).node;
+  for (int i = 0; i < 125; ++i) {
+    Lanes l, r;
+    for (int lane = 0; lane < 8; ++lane) l.set(lane, width(random)), r.set(lane, l[lane] + radius(random));
     for (const Basis basis : bases) {
-      Weights w;
-      const std::array<double, 2> x{r, 0.2 * h};
-      basis == Basis::ugimp ? find_weights<Geometry::axisymmetric, Basis::ugimp>(x, l, {0, 0, 0}, h, w)
-                            : find_weights<Geometry::axisymmetric, Basis::quadratic_spline>(x, l, {0, 0, 0}, h, w);
-      for (std::size_t a = 0; a < 2; ++a) expect_partition_of_unity(w, a);
-      EXPECT_NEAR((w.hoop[0] + w.hoop[1] + w.hoop[2]) * r, 1.0, 1e-12);
-      EXPECT_NEAR(w.hoop[0] * (n - 1.0) * h + w.hoop[1] * n * h + w.hoop[2] * (n + 1.0) * h, 1.0, 1e-12);
+      const std::array<Lanes, 2> x{r, Lanes(0.2 * h)};
+      const Weights<2> w = basis == Basis::ugimp
+                               ? find_weights<Geometry::axisymmetric, Basis::ugimp>(x, l, {0, 0, 0}, h)
+                               : find_weights<Geometry::axisymmetric, Basis::quadratic_spline>(x, l, {0, 0, 0}, h);
+      for (std::size_t lane = 0; lane < 8; ++lane) {
+        for (const LineWeights& line : w.along) expect_partition_of_unity(line, lane);
+        const double radius_of_lane = r[static_cast<int>(lane)], n = nearest_node(radius_of_lane, 1.0 / h).node;
+        const double below = w.hoop[0][lane], middle = w.hoop[1][lane], above = w.hoop[2][lane];
+        EXPECT_NEAR((below + middle + above) * radius_of_lane, 1.0, 1e-12);
+        EXPECT_NEAR(below * (n - 1.0) * h + middle * n * h + above * (n + 1.0) * h, 1.0, 1e-12);
+      }
     }
   }
 }

@@ -1,0 +1,76 @@
+#pragma once
+// Eight particles side by side, taken in the order of a bin, so that what is done to them does not depend on where they stand
+// in memory.
+
+#include "simulator/solid/bins.hpp"
+#include "simulator/solid/packs.hpp"
+
+namespace brisance::simulator {
+
+/// Neighbours in the order of a bin. Lanes beyond the last particle repeat it.
+struct Eight {
+  std::array<std::uint32_t, 8> particle;
+  int used;
+
+  explicit Eight(std::uint32_t one) : used(1) { particle.fill(one); }
+  Eight(const Bins& bins, std::uint32_t first, std::uint32_t end) : used(static_cast<int>(std::min(end - first, 8u))) {
+    for (std::uint32_t i = 0; i < 8; ++i) particle[i] = bins.order[std::min(first + i, end - 1)];
+  }
+  /// The value in the lanes in use, zero beyond.
+  Lanes only_used(const Lanes& value) const {
+    return select(pack(0, 1, 2, 3, 4, 5, 6, 7) < static_cast<double>(used), value, Lanes(0.0));
+  }
+};
+
+/// Columns of eight particles.
+class Columns {
+ public:
+  Columns(const ColumnSet& set, const Eight& eight) : Columns(const_cast<ColumnSet&>(set), eight) {}
+  Columns(ColumnSet& set, const Eight& eight) : data_(set.chunk(0)) {
+    for (std::size_t i = 0; i < 8; ++i) places_.at[i] = set.offset(eight.particle[i]);
+  }
+  Lanes operator[](int column) const { return gather(data_ + column * chunk_size, places_); }
+  void write(int column, const Lanes& values) { scatter(values, data_ + column * chunk_size, places_); }
+
+ private:
+  double* data_;
+  Places places_;
+};
+
+/// Columns that a loop over particles is going to read or write.
+struct Wanted {
+  const ColumnSet& set;
+  int first, count;
+};
+
+/// Asks the memory for columns of the eight particles from a place of the bins' order on, which are neighbours in memory as a
+/// rule.
+inline void fetch(const Bins& bins, std::size_t place, std::initializer_list<Wanted> wanted) {
+  for (const std::size_t at : {place, place + 7}) {
+    if (at >= bins.order.size()) continue;
+    for (const Wanted& w : wanted) {
+      const double* from = w.set.particle(static_cast<int>(bins.order[at])) + w.first * chunk_size;
+      for (int k = 0; k < w.count; ++k) __builtin_prefetch(from + k * chunk_size);
+    }
+  }
+}
+
+/// Calls f(eight) for the particles of a bin. What is wanted of those that follow is on its way from memory meanwhile.
+template <class F>
+void for_each_eight(const Bins& bins, const Bin& bin, std::initializer_list<Wanted> wanted, F&& f) {
+  constexpr std::uint32_t ahead = 32;  // particles: what a memory takes under load
+  for (std::uint32_t first = bin.begin; first < bin.end; first += 8) {
+    fetch(bins, first + ahead, wanted);
+    f(Eight(bins, first, bin.end));
+  }
+}
+
+/// D columns from the first on.
+template <std::size_t D>
+std::array<Lanes, D> read_vector(const Columns& columns, int first) {
+  std::array<Lanes, D> v;
+  for (std::size_t a = 0; a < D; ++a) v[a] = columns[first + static_cast<int>(a)];
+  return v;
+}
+
+}  // namespace brisance::simulator
