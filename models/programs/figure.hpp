@@ -34,7 +34,6 @@ struct Panel {
   bool wide = false;                   // takes a row of its own
   double height = 1.0;                 // of its row, in units of Figure::panel_height
   std::string legend = "top left";     // gnuplot's words for its place
-  std::vector<std::string> x_names{};  // stand upright under x = 0, 1, 2, ...
 };
 
 struct Figure {
