@@ -22,6 +22,7 @@
 #include <random>
 
 #include "driver/commands.hpp"
+#include "driver/keys.hpp"
 #include "driver/plot.hpp"
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "models/visit.hpp"
@@ -348,7 +349,7 @@ void add_warnings(const Calibration& calibration, Fit& fit) {
 
 }  // namespace
 
-double* find_parameter(Material& material, std::string_view key, Interval* interval) {
+double* find_parameter(Material& material, std::string_view key, Interval* interval, Unit* unit) {
   const std::size_t dot = key.find('.');
   if (dot == std::string_view::npos) return nullptr;
   const std::string_view folder = key.substr(0, dot), name = key.substr(dot + 1);
@@ -359,6 +360,7 @@ double* find_parameter(Material& material, std::string_view key, Interval* inter
         if (row.name == name) {
           found = &(law.*(row.member));
           if (interval) *interval = row.interval;
+          if (unit) *unit = row.unit;
         }
     });
   };
@@ -419,21 +421,21 @@ Fit calibrate(const Calibration& calibration) {
 
 namespace {
 
-FitParameter read_parameter(TableReader& table, Material& material) {
-  FitParameter p;
-  p.key = table.text("key", "value of the material file, such as flow_stress.A");
+FitParameter read_parameter(TableReader& table, MaterialFile& file) {
+  const std::size_t before = table.problem_count();
+  const auto keys = read_keys<ParameterKeys>(table);
+  const bool material_known = !file.path.empty();
+  if (!material_known || table.problem_count() > before) return {};
+  FitParameter p{keys.key, keys.lower, keys.upper, 0.0, keys.scale == Scale::logarithmic};
   Interval interval;
-  const double* value = find_parameter(material, p.key, &interval);
-  if (!value && table.problem_count() == 0)
+  const double* value = find_parameter(file.material, p.key, &interval);
+  if (!value) {
     table.problem("key", "\"" + p.key +
                              "\" is no number of this material; what can be fitted are numbers of its flow_stress, "
                              "shear_modulus, melting, specific_heat and equation_of_state");
-  p.lower = table.number("lower", {.meaning = "least value, in SI units"});
-  p.upper = table.number("upper", {.meaning = "largest value, in SI units"});
-  p.start = table.number_or("start", value ? *value : 0.0, {.meaning = "value to start from"});
-  constexpr std::array<std::string_view, 2> scales{"linear", "logarithmic"};
-  p.logarithmic = table.choice("scale", scales, 0) == 1;
-  if (!value) return p;
+    return p;
+  }
+  p.start = keys.start.value_or(*value);
   if (!(p.lower < p.upper)) table.problem("upper", "must be above lower");
   if (p.start < p.lower || p.start > p.upper)
     table.problem("start", fmt::format("{:g} is not between lower and upper", p.start));
@@ -449,19 +451,18 @@ Calibration read_calibration(const std::filesystem::path& file, const std::vecto
   InputFile input = InputFile::load(file);
   for (const std::string& assignment : overrides) input.set(assignment);
   TableReader top = input.top();
+  auto keys = read_keys<CalibrationKeys>(top);
   Calibration calibration;
-  calibration.title = top.text("title", "heading of the report and the figure");
-  calibration.file = resolve_material(top, "material");
-  const Experiments experiments = read_experiments(top, file.parent_path());
+  calibration.title = keys.title;
+  calibration.file = std::move(keys.material);
+  const Experiments experiments = read_experiments(top, keys.experiments);
   calibration.tests = experiments.tests, calibration.data = experiments.files;
-  if (auto protocol = top.optional_table("protocol")) read_protocol(*protocol, calibration.protocol);
-  constexpr std::array<std::string_view, 2> residuals{"absolute", "relative"};
-  calibration.residual = static_cast<Residual>(top.choice("residual", residuals, 1));
-  calibration.starts = top.integer_or("starts", 1, 1, 10000);
-  calibration.seed = static_cast<std::uint64_t>(top.integer_or("seed", 1, 0, std::numeric_limits<int>::max()));
-  for (TableReader& parameter : top.tables("parameter"))
-    calibration.parameters.push_back(read_parameter(parameter, calibration.file.material));
-  if (calibration.parameters.empty()) top.problem("there is no [[parameter]] to find");
+  calibration.protocol = protocol_of(keys.protocol);
+  calibration.residual = keys.residual;
+  calibration.starts = keys.starts;
+  calibration.seed = keys.seed;
+  for (TableReader& parameter : keys.parameters) calibration.parameters.push_back(read_parameter(parameter, calibration.file));
+  if (!top.has("parameter")) top.problem("there is no [[parameter]] to find");
   input.finish();
   return calibration;
 }
@@ -528,10 +529,10 @@ std::vector<std::size_t> some_tests(const Calibration& calibration, const Fit& f
 }
 
 Figure figure_of(const Calibration& calibration, const Fit& fit) {
-  Figure figure{.title = calibration.title, .panels = {}, .columns = 2};
+  Figure figure{.title = calibration.title, .panels = {}, .columns = 2, .panel_width = 620, .panel_height = 460};
   for (const bool adiabatic : {false, true}) {
     Panel panel{.title = adiabatic ? "adiabatic" : "isothermal", .x_label = "plastic strain", .y_label = "true stress (MPa)"};
-    panel.legend = "outside right top vertical";
+    panel.legend = "below horizontal";
     double largest_strain = 0.0, largest_stress = 0.0;
     int colour = 0;
     for (const std::size_t t : some_tests(calibration, fit, adiabatic, 7)) {
@@ -550,6 +551,7 @@ Figure figure_of(const Calibration& calibration, const Fit& fit) {
       ++colour;
     }
     if (panel.curves.empty()) continue;
+    panel.curves.push_back({"fitted", {0.0, 0.0}, {-1.0, -1.0}, Mark::line, 6});  // of the legend
     panel.x_range = {0.0, 1.03 * largest_strain};
     panel.y_range = {0.0, 1.05 * largest_stress};
     figure.panels.push_back(std::move(panel));
@@ -567,6 +569,7 @@ Figure figure_of(const Calibration& calibration, const Fit& fit) {
   }
   scatter.curves.push_back(std::move(points));
   scatter.curves.push_back({"equal", {0.0, 1.05 * largest}, {0.0, 1.05 * largest}, Mark::line, 6});
+  scatter.legend = "inside left top";
   scatter.x_range = scatter.y_range = {0.0, 1.05 * largest};
   figure.panels.push_back(std::move(scatter));
   return figure;
@@ -575,6 +578,8 @@ Figure figure_of(const Calibration& calibration, const Fit& fit) {
 }  // namespace
 
 int run_calibration(const CalibrateOptions& options) {
+  require_place_for(options.output, {".toml"});
+  for (const std::filesystem::path& figure : options.figures) require_place_for(figure, {".png", ".svg"});
   const Calibration calibration = read_calibration(options.file, options.overrides);
   const Fit fit = calibrate(calibration);
   print_report(calibration, fit);
@@ -585,10 +590,12 @@ int run_calibration(const CalibrateOptions& options) {
     });
     fmt::print("material: {}\n", options.output.string());
   }
+  std::string figures;
   for (const std::filesystem::path& path : options.figures) {
     draw(figure_of(calibration, fit), path);
-    fmt::print("figure: {}\n", path.string());
+    figures += (figures.empty() ? "" : ", ") + path.string();
   }
+  if (!figures.empty()) fmt::print("figure: {}\n", figures);
   return done;
 }
 

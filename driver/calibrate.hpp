@@ -39,8 +39,8 @@ struct Calibration {
 Calibration read_calibration(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// The value in the material that a key such as "flow_stress.A" names; nullptr if there is none. `interval` receives the values
-/// that it may take.
-double* find_parameter(Material& material, std::string_view key, Interval* interval = nullptr);
+/// that it may take, `unit` its unit.
+double* find_parameter(Material& material, std::string_view key, Interval* interval = nullptr, Unit* unit = nullptr);
 
 /// Stress (Pa, magnitude over the superposed pressure) at increasing plastic strains in a test of uniaxial stress. A
 /// homogeneous specimen on its yield surface: the same laws as the update, in one dimension and without its elastic part, so

@@ -189,6 +189,23 @@ void check_specific_heat(const Material& m, Report& report) {
   });
 }
 
+/// Reversible compression warms what expands when it is heated.
+void check_heating(const Material& m, Report& report) {
+  using namespace equation_of_state;
+  const Caloric kind = caloric(m.equation_of_state);
+  if (!m.heating || (kind != Caloric::thermal && kind != Caloric::energy)) return;
+  constexpr double compression = 0.05;
+  const double e = energy(m.equation_of_state, m.density, room_temperature);
+  const double gruneisen = gruneisen_coefficient(m.equation_of_state, m.density, e);
+  const double rise = room_temperature * std::expm1(gruneisen * compression);
+  report.require(
+      m.heating->thermoelastic, Verdict::warning, "heating",
+      fmt::format("5 % of compression warms it by {:.0f} K, from 298 K and without plastic work", rise),
+      fmt::format("thermoelastic = false: compression does not warm it, by {:.0f} K for 5 % from 298 K; right only where "
+                  "pressures stay below a GPa or so, or the source left it out",
+                  rise));
+}
+
 void check_melting(const Material& m, Report& report) {
   if (!m.melting) return;
   const double Tm = melting_temperature(m);
@@ -270,6 +287,7 @@ std::vector<Finding> check_material(const std::filesystem::path& path) {
   check_shear_modulus(file.material, report);
   check_melting(file.material, report);
   check_specific_heat(file.material, report);
+  check_heating(file.material, report);
   check_flow_stress(file.material, report);
   check_yield(file.material, report);
   check_damage(file.material, report);

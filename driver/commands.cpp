@@ -8,6 +8,7 @@
 #include "driver/calibrate.hpp"
 #include "driver/check.hpp"
 #include "driver/compare.hpp"
+#include "driver/keys.hpp"
 #include "driver/laws.hpp"
 #include "driver/run_command.hpp"
 #include "models/input/diagnostics.hpp"
@@ -15,18 +16,36 @@
 namespace brisance::driver {
 namespace {
 
+constexpr const char* set_help =
+    "replace a value: segment.0.strain_rate=-5000, \"material.flow_stress.A=95 MPa\"; list elements count from 0, and a list "
+    "with texts stands in single quotes: 'key=[0, \"1 mm\"]'";
+
 int list() {
-  fmt::print("{}", list_laws());
+  fmt::print("LAWS of materials\n\n{}\n", list_laws());
+  for (const FileKind& kind : file_kinds())
+    fmt::print("KEYS of a {} (pointdriver {})\n\n{}\n", kind.name, kind.command, overview_of(kind.keys));
+  fmt::print("`pointdriver describe NAME` explains a law, a key, or a value of a key\n");
   return done;
 }
 
+/// Laws and keys of this name.
 int describe(const std::string& name) {
-  std::string suggestion;
-  if (const auto text = describe_laws(name, suggestion)) {
-    fmt::print("{}", *text);
+  std::string pages, suggestion;
+  std::vector<std::string_view> names;
+  if (const auto laws = describe_laws(name, suggestion)) pages = *laws;
+  for (const FileKind& kind : file_kinds()) {
+    const std::vector<KeyDescription> found = find_keys(kind.keys, name);
+    if (!found.empty()) pages += fmt::format("{}{}\n\n", pages.empty() ? "" : "\n", kind.name);
+    for (const KeyDescription& key : found) pages += page_of(key);
+    const auto known = names_of(kind.keys);
+    names.insert(names.end(), known.begin(), known.end());
+  }
+  if (!pages.empty()) {
+    fmt::print("{}", pages);
     return done;
   }
-  fmt::print(stderr, "describe: \"{}\" is no law{}; `pointdriver list` shows all\n", name, suggestion);
+  if (suggestion.empty()) suggestion = did_you_mean(name, names);
+  fmt::print(stderr, "describe: \"{}\" is no law and no key{}; `pointdriver list` shows all\n", name, suggestion);
   return bad_input;
 }
 
@@ -41,8 +60,8 @@ int run_command_line(int argc, char** argv) {
   RunOptions options;
   CLI::App* run_command = app.add_subcommand("run", "Follow a path file, or every member of its sweep");
   run_command->add_option("PATH", options.file, "path file (TOML)")->required();
-  run_command->add_option("--set", options.overrides, "replace a value: key.0.key=value")->allow_extra_args(false);
-  run_command->add_option("-o,--output", options.output, "history.csv or .h5; for a sweep a directory");
+  run_command->add_option("--set", options.overrides, set_help)->allow_extra_args(false);
+  run_command->add_option("-o,--output", options.output, "history: NAME.csv or NAME.h5; for a sweep also a directory");
   run_command->add_option("--plot", options.figure, "figure, .png or .svg");
   run_command->add_flag("--reference", options.reference, "compare with the rate form, integrated with error control");
   run_command->callback([&] { code = run(options); });
@@ -50,19 +69,19 @@ int run_command_line(int argc, char** argv) {
   CompareOptions comparison;
   CLI::App* compare_command = app.add_subcommand("compare", "Measured stress-strain curves against material models");
   compare_command->add_option("CASE", comparison.file, "comparison file (TOML)")->required();
-  compare_command->add_option("--set", comparison.overrides, "replace a value: key.0.key=value")->allow_extra_args(false);
+  compare_command->add_option("--set", comparison.overrides, set_help)->allow_extra_args(false);
   compare_command->add_option("-o,--output", comparison.output,
                               "NAME.csv of the errors of each test; NAME_points.csv goes beside it");
   compare_command->add_option("--plot", comparison.figures, "figure, .png or .svg; may be given twice")
       ->allow_extra_args(false);
   compare_command->callback([&] { code = run_comparison(comparison); });
 
-  app.add_subcommand("list", "All laws, folder by folder")->callback([&] { code = list(); });
+  app.add_subcommand("list", "All laws, folder by folder, and all keys of input files")->callback([&] { code = list(); });
 
   CalibrateOptions calibration;
   CLI::App* calibrate_command = app.add_subcommand("calibrate", "Parameters of a material from measured flow curves");
   calibrate_command->add_option("FIT", calibration.file, "calibration file (TOML)")->required();
-  calibrate_command->add_option("--set", calibration.overrides, "replace a value: key.0.key=value")->allow_extra_args(false);
+  calibrate_command->add_option("--set", calibration.overrides, set_help)->allow_extra_args(false);
   calibrate_command->add_option("-o,--output", calibration.output, "material file with the parameters found");
   calibrate_command->add_option("--plot", calibration.figures, "figure, .png or .svg; may be given twice")
       ->allow_extra_args(false);
@@ -74,9 +93,10 @@ int run_command_line(int argc, char** argv) {
   check_command->callback([&] { code = run_check(materials); });
 
   std::string law;
-  CLI::App* describe_command = app.add_subcommand("describe", "Equation, source and parameters of a law");
-  describe_command->add_option("LAW", law, "name, folder/name, or folder")->required();
-  describe_command->callback([&] { code = describe(law); });
+  CLI::App* describe_command =
+      app.add_subcommand("describe", "A law: equation, source, parameters. A key: meaning, unit, default, values");
+  describe_command->add_option("NAME", law, "law, folder/law or folder; key or its path; without it all are listed");
+  describe_command->callback([&] { code = law.empty() ? list() : describe(law); });
 
   return exit_code_of([&] {
     try {

@@ -7,11 +7,12 @@
 #include <chrono>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 #include "driver/commands.hpp"
 #include "driver/follow.hpp"
+#include "driver/keys.hpp"
 #include "driver/plot.hpp"
 #include "models/programs/progress.hpp"
 
@@ -111,17 +112,28 @@ std::vector<Group> groups() {
           {"above 350 K, from 100 /s", [](const Test& t) { return t.temperature > warm && t.strain_rate >= fast; }}};
 }
 
+/// Width of a column of names under a heading.
+template <class Names>
+int width_of(std::string_view heading, const Names& names) {
+  std::size_t width = heading.size();
+  for (const std::string& name : names) width = std::max(width, name.size());
+  return static_cast<int>(width);
+}
+
 void print_tests(const Comparison& comparison, const Results& results) {
-  fmt::print("{:14} {:>6} {:>9} {:>7} {:>7}", "author", "T, K", "rate, 1/s", "p, MPa", "points");
-  for (const Model& model : comparison.models) fmt::print("   {:>29}", model.name);
-  fmt::print("\n{:47}", "");
+  std::vector<std::string> authors;
+  for (const Test& test : comparison.tests) authors.push_back(test.author);
+  const int author = width_of("author", authors), errors = 29;
+  fmt::print("{:>4}  {:{}} {:>6} {:>9} {:>7} {:>7}", "test", "author", author, "T, K", "rate, 1/s", "p, MPa", "points");
+  for (const Model& model : comparison.models) fmt::print("   {:>{}}", model.name, errors);
+  fmt::print("\n{:{}}", "", author + 39);
   for (std::size_t m = 0; m < comparison.models.size(); ++m)
     fmt::print("   {:>7} {:>6} {:>7} {:>6}", "RMS,MPa", "norm.%", "RMS,%", "mean,%");
   fmt::print("\n");
   for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
     const Test& test = comparison.tests[t];
-    fmt::print("{:14} {:6g} {:9g} {:7g} {:7}", test.author, test.temperature, test.strain_rate, test.pressure * 1e-6,
-               results.front()[t].points.size());
+    fmt::print("{:4}  {:{}} {:6g} {:9g} {:7g} {:7}", t + 1, test.author, author, test.temperature, test.strain_rate,
+               test.pressure * 1e-6, results.front()[t].points.size());
     std::string notes;
     for (std::size_t m = 0; m < results.size(); ++m) {
       const Errors e = errors_of(results[m][t].points);
@@ -129,26 +141,38 @@ void print_tests(const Comparison& comparison, const Results& results) {
         fmt::print("   {:7.1f} {:6.1f} {:7.1f} {:+6.1f}", e.rms * 1e-6, 100.0 * e.normalised_rms, 100.0 * e.relative_rms,
                    100.0 * e.relative_mean);
       else
-        fmt::print("   {:>29}", "none");
-      if (!results[m][t].note.empty()) notes += fmt::format("  {}: {}", comparison.models[m].name, results[m][t].note);
+        fmt::print("   {:>{}}", "none", errors);
+      const std::string& note = results[m][t].note;
+      if (!note.empty() && notes.find(note) == std::string::npos)
+        notes += fmt::format("  {}: {}", comparison.models[m].name, note);
     }
     fmt::print("{}\n", notes);
   }
 }
 
 void print_groups(const Comparison& comparison, const Results& results) {
-  fmt::print("{:26} {:18} {:>6} {:>7} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11}\n", "tests", "model", "tests", "points",
-             "RMS,MPa", "norm.,%", "RMS,%", "mean,%", "tests,%", "median,%", "within 10 %");
+  const std::vector<Group> all_groups = groups();
+  std::vector<std::string> group_names, model_names;
+  for (const Group& group : all_groups) group_names.push_back("  " + group.name);
+  for (const Model& model : comparison.models) model_names.push_back(model.name);
+  const int group_width = width_of("tests", group_names), model_width = width_of("model", model_names);
+  fmt::print("{:{}} {:{}} {:>9} {:>7} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11}\n", "tests", group_width, "model", model_width,
+             "tests", "points", "RMS,MPa", "norm.,%", "RMS,%", "mean,%", "tests,%", "median,%", "within 10 %");
+  const std::size_t of_all = comparison.tests.size();
   for (const double from : comparison.summary_from) {
-    fmt::print("from a plastic strain of {:g}\n", from);
-    for (const Group& group : groups())
+    const auto with_points = errors_of_group(comparison.tests, results.front(), all_groups.front().belongs, from).tests;
+    const std::size_t without = of_all - static_cast<std::size_t>(with_points);
+    fmt::print("from a plastic strain of {:g}", from);
+    if (without > 0) fmt::print(": {} of {} tests ({} without points)", with_points, of_all, without);
+    fmt::print("\n");
+    for (const Group& group : all_groups)
       for (std::size_t m = 0; m < results.size(); ++m) {
         const GroupErrors e = errors_of_group(comparison.tests, results[m], group.belongs, from);
         if (e.tests == 0) continue;
-        fmt::print("{:26} {:18} {:6} {:7} {:8.1f} {:8.1f} {:8.1f} {:+8.1f} {:9.1f} {:9.1f} {:8}/{}\n", "  " + group.name,
-                   comparison.models[m].name, e.tests, e.all_points.points, e.all_points.rms * 1e-6,
+        fmt::print("{:{}} {:{}} {:9} {:7} {:8.1f} {:8.1f} {:8.1f} {:+8.1f} {:9.1f} {:9.1f} {:>11}\n", "  " + group.name,
+                   group_width, comparison.models[m].name, model_width, e.tests, e.all_points.points, e.all_points.rms * 1e-6,
                    100.0 * e.all_points.normalised_rms, 100.0 * e.all_points.relative_rms, 100.0 * e.all_points.relative_mean,
-                   100.0 * e.rms_of_tests, 100.0 * e.median_of_tests, e.within_10_percent, e.tests);
+                   100.0 * e.rms_of_tests, 100.0 * e.median_of_tests, fmt::format("{}/{}", e.within_10_percent, e.tests));
       }
   }
 }
@@ -254,78 +278,92 @@ std::vector<Choice> choices_for_figure(const Comparison& comparison) {
                           choose(tests, "room temperature: strain rate", 5, room, by_rate),
                           choose(tests, "room temperature: superposed pressure", 4, pressed, by_pressure)};
   std::erase_if(all, [](const Choice& c) { return c.tests.empty(); });
+  if (all.empty())
+    all.push_back(choose(
+        tests, "temperature", 7, [](const Test&) { return true; }, by_temperature));
   return all;
 }
 
-/// The error of every test, in the order of temperature and then rate.
+/// The error of every test, by its number in the table.
 Panel error_panel(const Comparison& comparison, const Results& results) {
-  std::vector<std::size_t> order(comparison.tests.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const Test &first = comparison.tests[a], &second = comparison.tests[b];
-    return std::pair(first.temperature, first.strain_rate) < std::pair(second.temperature, second.strain_rate);
-  });
-  Panel panel{.title = "RMS error of each test over its mean stress", .y_label = "error (%)"};
+  Panel panel{.title = "RMS error of each test over its mean stress",
+              .x_label = "number of the test in the table, by temperature and then rate",
+              .y_label = "error (%)"};
   panel.wide = true;
-  panel.height = 1.25;
   panel.logarithmic_y = true;
   panel.legend = "inside left top horizontal";
-  for (const std::size_t t : order)
-    panel.x_names.push_back(fmt::format("{} {}", comparison.tests[t].author, conditions(comparison.tests[t])));
-  const double end = static_cast<double>(order.size());
+  const double end = static_cast<double>(comparison.tests.size()) + 1.0;
   for (std::size_t m = 0; m < results.size(); ++m) {
     Curve curve{comparison.models[m].name, {}, {}, m == 0 ? Mark::points : Mark::squares, static_cast<int>(m)};
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const Errors e = errors_of(results[m][order[i]].points);
+    for (std::size_t t = 0; t < results[m].size(); ++t) {
+      const Errors e = errors_of(results[m][t].points);
       if (e.points == 0) continue;
-      curve.x.push_back(static_cast<double>(i));
+      curve.x.push_back(static_cast<double>(t + 1));
       curve.y.push_back(100.0 * e.normalised_rms);
     }
     panel.curves.push_back(std::move(curve));
   }
-  panel.curves.push_back({"10 %", {-1.0, end}, {10.0, 10.0}, Mark::dashed, 6});
-  panel.x_range = {-1.0, end};
+  panel.curves.push_back({"10 %", {0.0, end}, {10.0, 10.0}, Mark::dashed, 6});
+  panel.x_range = {0.0, end};
   return panel;
 }
 
+/// Measured points and computed curves of some tests; one test shows its models in colours, several show each test in one.
+Panel panel_of(const Comparison& comparison, const Results& results, const Choice& choice) {
+  Panel panel{.title = choice.title, .x_label = "plastic strain", .y_label = "true stress (MPa)"};
+  panel.legend = "below horizontal";
+  const bool alone = choice.tests.size() == 1;
+  const auto line_of = [](std::size_t m) { return m == 0 ? Mark::line : Mark::dashed; };
+  double strain = 0.0, stress = 0.0;
+  for (std::size_t i = 0; i < choice.tests.size(); ++i) {
+    const std::size_t t = choice.tests[i];
+    const Test& test = comparison.tests[t];
+    const int colour = static_cast<int>(i);
+    Curve measured{alone ? "measured" : conditions(test), {}, {}, Mark::points, alone ? 6 : colour};
+    for (std::size_t k = 0; k < test.stress.size(); ++k) {
+      if (test.plastic_strain[k] < 0.0) continue;
+      measured.x.push_back(test.plastic_strain[k]);
+      measured.y.push_back(test.stress[k] * 1e-6);
+      strain = std::max(strain, test.plastic_strain[k]);
+      stress = std::max(stress, measured.y.back());
+    }
+    panel.curves.push_back(std::move(measured));
+    for (std::size_t m = 0; m < results.size(); ++m) {
+      Curve computed{alone ? comparison.models[m].name : "",
+                     results[m][t].plastic_strain,
+                     {},
+                     line_of(m),
+                     alone ? static_cast<int>(m) : colour};
+      for (const double s : results[m][t].stress) {
+        computed.y.push_back(s * 1e-6);
+        stress = std::max(stress, s * 1e-6);
+      }
+      panel.curves.push_back(std::move(computed));
+    }
+  }
+  for (std::size_t m = 0; m < results.size() && !alone; ++m)  // entries of the legend without data of their own
+    panel.curves.push_back({comparison.models[m].name, {0.0, 0.0}, {-1.0, -1.0}, line_of(m), 6});
+  panel.x_range = {0.0, strain > 0.0 ? 1.03 * strain : 1.0};
+  panel.y_range = {0.0, 1.05 * stress};
+  return panel;
+}
+
+/// Few tests have a panel each; of many, representatives share panels.
 Figure figure_of(const Comparison& comparison, const Results& results) {
+  constexpr std::size_t few = 8;
   Figure figure;
   figure.title = comparison.title;
   figure.columns = 2;
   figure.panel_width = 640;
   figure.panel_height = 430;
-  for (const Choice& choice : choices_for_figure(comparison)) {
-    Panel panel{.title = choice.title, .x_label = "plastic strain", .y_label = "true stress (MPa)"};
-    panel.legend = "outside right top vertical";
-    double strain = 0.0, stress = 0.0;
-    for (std::size_t i = 0; i < choice.tests.size(); ++i) {
-      const std::size_t t = choice.tests[i];
-      const Test& test = comparison.tests[t];
-      Curve measured{conditions(test), {}, {}, Mark::points, static_cast<int>(i)};
-      for (std::size_t k = 0; k < test.stress.size(); ++k) {
-        if (test.plastic_strain[k] < 0.0) continue;
-        measured.x.push_back(test.plastic_strain[k]);
-        measured.y.push_back(test.stress[k] * 1e-6);
-        strain = std::max(strain, test.plastic_strain[k]);
-        stress = std::max(stress, measured.y.back());
-      }
-      panel.curves.push_back(std::move(measured));
-      for (std::size_t m = 0; m < results.size(); ++m) {
-        Curve computed{"", results[m][t].plastic_strain, {}, m == 0 ? Mark::line : Mark::dashed, static_cast<int>(i)};
-        for (const double s : results[m][t].stress) {
-          computed.y.push_back(s * 1e-6);
-          stress = std::max(stress, s * 1e-6);
-        }
-        panel.curves.push_back(std::move(computed));
-      }
-    }
-    for (std::size_t m = 0; m < results.size(); ++m)  // entries of the legend without data of their own
-      panel.curves.push_back({comparison.models[m].name, {0.0, 0.0}, {-1.0, -1.0}, m == 0 ? Mark::line : Mark::dashed, 6});
-    panel.x_range = {0.0, 1.03 * strain};
-    panel.y_range = {0.0, 1.05 * stress};
-    figure.panels.push_back(std::move(panel));
+  std::vector<Choice> choices;
+  if (comparison.tests.size() > few) choices = choices_for_figure(comparison);
+  for (std::size_t t = 0; t < comparison.tests.size() && comparison.tests.size() <= few; ++t) {
+    const Test& test = comparison.tests[t];
+    choices.push_back({fmt::format("{}: {}, {}", t + 1, test.author, conditions(test)), {t}});
   }
-  figure.panels.push_back(error_panel(comparison, results));
+  for (const Choice& choice : choices) figure.panels.push_back(panel_of(comparison, results, choice));
+  if (comparison.tests.size() > few) figure.panels.push_back(error_panel(comparison, results));
   return figure;
 }
 
@@ -335,21 +373,18 @@ Comparison read_comparison(const std::filesystem::path& file, const std::vector<
   InputFile input = InputFile::load(file);
   for (const std::string& assignment : overrides) input.set(assignment);
   TableReader top = input.top();
+  auto keys = read_keys<ComparisonKeys>(top);
   Comparison comparison;
-  comparison.title = top.text("title", "heading of the table and the figure");
-
-  comparison.tests = read_experiments(top, file.parent_path()).tests;
-  if (auto protocol = top.optional_table("protocol")) {
-    read_protocol(*protocol, comparison.protocol);
-    comparison.strain_increment =
-        protocol->number_or("strain_increment", comparison.strain_increment,
-                            {Unit::one, {.lower = 0.0, .upper = 0.05, .lower_open = true}, "strain of a step"});
-    if (auto from = protocol->optional_numbers("summary_from", {Unit::one, non_negative, "plastic strains"}))
-      comparison.summary_from = *from;
-  }
-  for (TableReader& model : top.tables("model"))
-    comparison.models.push_back({model.text("name", "for the table and the figure"), resolve_material(model, "material")});
-  if (comparison.models.empty()) top.problem("there is no [[model]] to compare with");
+  comparison.title = keys.title;
+  comparison.tests = read_experiments(top, keys.experiments).tests;
+  std::stable_sort(comparison.tests.begin(), comparison.tests.end(), [](const Test& a, const Test& b) {
+    return std::tuple(a.temperature, a.strain_rate, a.pressure) < std::tuple(b.temperature, b.strain_rate, b.pressure);
+  });
+  comparison.models = std::move(keys.models);
+  comparison.protocol = protocol_of(keys.protocol);
+  comparison.strain_increment = keys.protocol.strain_increment;
+  comparison.summary_from = keys.protocol.summary_from;
+  if (!top.has("model")) top.problem("there is no [[model]] to compare with");
   input.finish();
   return comparison;
 }
@@ -414,8 +449,8 @@ GroupErrors errors_of_group(const std::vector<Test>& tests, const std::vector<Te
 }
 
 int run_comparison(const CompareOptions& options) {
-  if (!options.output.empty() && options.output.extension() != ".csv")
-    throw std::invalid_argument(fmt::format("{}: the file name must end in .csv", options.output.string()));
+  require_place_for(options.output, {".csv"});
+  for (const std::filesystem::path& figure : options.figures) require_place_for(figure, {".png", ".svg"});
   const Comparison comparison = read_comparison(options.file, options.overrides);
   const auto begin = std::chrono::steady_clock::now();
   const Results results = compare(comparison);
@@ -424,10 +459,12 @@ int run_comparison(const CompareOptions& options) {
     write_results(comparison, results, options.output);
     fmt::print("tests: {}\npoints: {}\n", options.output.string(), points_path(options.output).string());
   }
+  std::string figures;
   for (const std::filesystem::path& path : options.figures) {
     draw(figure_of(comparison, results), path);
-    fmt::print("figure: {}\n", path.string());
+    figures += (figures.empty() ? "" : ", ") + path.string();
   }
+  if (!figures.empty()) fmt::print("figure: {}\n", figures);
   return done;
 }
 

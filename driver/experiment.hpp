@@ -1,7 +1,7 @@
 #pragma once
 // Measured flow curves as the [experiment] tables of case files name them, and how such tests are computed.
 
-#include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,12 +31,12 @@ struct Experiments {
   std::string files;  // of the measurements, with commas between them
 };
 
-/// Reads [experiment], or every [[experiment]], of a case file: a file of measurements beside it, which of its columns is what,
-/// and which rows and tests count.
-Experiments read_experiments(TableReader& top, const std::filesystem::path& folder);
+/// Reads every [[experiment]] of a case file: a file of measurements beside it, which of its columns is what, and which rows
+/// and tests count. All problems go to the case file.
+Experiments read_experiments(TableReader& top, std::span<const TableReader> tables);
 
-/// Reads direction, adiabatic_from and smallest_plastic_strain of the [protocol] table.
-void read_protocol(TableReader& table, Protocol& protocol);
+struct ProtocolKeys;
+Protocol protocol_of(const ProtocolKeys& keys);
 
 /// Whether a point of a test is one of flow.
 bool counts(const Test& test, std::size_t point, const Protocol& protocol);

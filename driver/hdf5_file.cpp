@@ -38,31 +38,82 @@ herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* names) {
   return 0;
 }
 
-}  // namespace
+void write_text_attribute(hid_t object, const std::string& name, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "making a text type");
+  require(H5Tset_size(type, text.size() + 1), "sizing a text type");
+  const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "making a scalar space");
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         "creating attribute " + name);
+  require(H5Awrite(attribute, type, text.c_str()), "writing attribute " + name);
+}
 
-void write_hdf5(const Record& record, const std::filesystem::path& path) {
-  silence();
-  // Links keep the order of creation, so that a reader finds the columns in the order of the CSV file.
-  const Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "making file properties");
-  require(H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), "asking for link order");
-  const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties, H5P_DEFAULT), H5Fclose, "creating the file");
+void write_number_attribute(hid_t object, const std::string& name, double number) {
+  const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "making a scalar space");
+  const Handle attribute(H5Acreate2(object, name.c_str(), H5T_NATIVE_DOUBLE, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         "creating attribute " + name);
+  require(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &number), "writing attribute " + name);
+}
+
+void write_columns(hid_t group, const Record& record) {
   for (const Record::Series& column : record.series) {
     const hsize_t rows = column.values.size();
     const Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose, "making a dataspace");
-    const Handle data(H5Dcreate2(file, column.name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+    const Handle data(H5Dcreate2(group, column.name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                       H5Dclose, "creating dataset " + column.name);
     require(H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, column.values.data()), "writing " + column.name);
-    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "making a text type");
-    require(H5Tset_size(type, column.unit.size() + 1), "sizing a text type");
-    const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose, "making a scalar space");
-    const Handle unit(H5Acreate2(data, "unit", type, scalar, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "creating attribute unit");
-    require(H5Awrite(unit, type, column.unit.c_str()), "writing the unit of " + column.name);
+    write_text_attribute(data, "unit", column.unit);
   }
 }
 
-Record read_hdf5(const std::filesystem::path& path) {
+/// Links keep the order of creation, so that a reader finds the columns in the order of the CSV file.
+template <class Write>
+void write_file(const std::filesystem::path& path, Write&& write_to) {
+  silence();
+  const Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "making file properties");
+  require(H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), "asking for link order");
+  const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties, H5P_DEFAULT), H5Fclose, "creating the file");
+  write_to(file);
+}
+
+}  // namespace
+
+void write_hdf5(const Record& record, const std::filesystem::path& path) {
+  write_file(path, [&](hid_t file) { write_columns(file, record); });
+}
+
+void write_hdf5(std::span<const SweepMember> members, const std::filesystem::path& path) {
+  write_file(path, [&](hid_t file) {
+    const Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "making group properties");
+    require(H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), "asking for link order");
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      const std::string name = fmt::format("member_{:03}", m + 1);
+      const Handle group(H5Gcreate2(file, name.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose,
+                         "creating group " + name);
+      for (const SweptValue& v : members[m].values) {
+        if (v.number)
+          write_number_attribute(group, v.column(), *v.number);
+        else
+          write_text_attribute(group, v.column(), v.text);
+      }
+      write_columns(group, members[m].record);
+    }
+  });
+}
+
+double read_hdf5_value(const std::filesystem::path& path, const std::string& group, const std::string& name) {
   silence();
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening " + path.string());
+  const Handle object(H5Oopen(file, group.c_str(), H5P_DEFAULT), H5Oclose, "opening " + group);
+  const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "opening attribute " + name);
+  double number = 0.0;
+  require(H5Aread(attribute, H5T_NATIVE_DOUBLE, &number), "reading attribute " + name);
+  return number;
+}
+
+Record read_hdf5(const std::filesystem::path& path, const std::string& group) {
+  silence();
+  const Handle whole(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "opening " + path.string());
+  const Handle file(H5Oopen(whole, group.c_str(), H5P_DEFAULT), H5Oclose, "opening " + group);
   std::vector<std::string> names;
   require(H5Literate(file, H5_INDEX_CRT_ORDER, H5_ITER_INC, nullptr, collect_name, &names), "listing the datasets");
   Record record;

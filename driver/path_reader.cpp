@@ -8,18 +8,8 @@
 #include <numbers>
 #include <span>
 
+#include "driver/keys.hpp"
 #include "models/equation_of_state/thermodynamics.hpp"
-#include "models/input/table_reader.hpp"
-
-namespace brisance {
-
-template <>
-inline constexpr std::array choices<driver::Heat> = {std::string_view{"adiabatic"}, std::string_view{"isothermal"},
-                                                     std::string_view{"prescribed"}};
-template <>
-inline constexpr std::array choices<driver::OnFailure> = {std::string_view{"stop"}, std::string_view{"continue"}};
-
-}  // namespace brisance
 
 namespace brisance::driver {
 namespace {
@@ -63,17 +53,14 @@ std::array<SymmetricComponent, 6> symmetric_components() {
   return all;
 }
 
-const SymmetricComponent& diagonal(std::size_t axis) {
+const SymmetricComponent& diagonal(Direction axis) {
   static const auto all = symmetric_components();
-  return all[axis];
+  return all[static_cast<std::size_t>(axis)];
 }
+constexpr std::array all_directions{Direction::x, Direction::y, Direction::z};
 
-constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
-constexpr std::array<std::string_view, 6> planes{"xy", "xz", "yx", "yz", "zx", "zy"};
-
-const Quantity any_rate{Unit::per_s, any_value, "strain rate, positive in extension"};
-const Quantity any_stress{Unit::Pa, any_value, "stress, positive in tension"};
-constexpr Unit degree{"degree"};
+const Quantity any_rate{Unit::per_s, any_value, "strain rate"};
+const Quantity any_stress{Unit::Pa, any_value, "stress"};
 
 /// What a mode leaves behind for the keys that every segment may have.
 struct Driven {
@@ -96,24 +83,24 @@ S symmetric_tensor(TableReader table, const Quantity& quantity) {
   return result;
 }
 
-/// Either a rate along the component or its stress at the end of the segment.
-void drive_along(TableReader& in, const SymmetricComponent& c, PathSegment& segment, Driven& driven) {
-  if (in.has("stress")) {
-    segment.free.push_back(held(c, in.number("stress", any_stress)));
-    if (in.has("strain_rate")) in.problem("strain_rate", "the segment is driven by `stress`; give one of the two");
-  } else {
-    const double rate = in.number("strain_rate", any_rate);
-    segment.velocity_gradient = segment.velocity_gradient + rate * c.direction;
-    driven.rate = rate;
-  }
-  driven.strain = fmt::format("strain_{}", c.name);
-  driven.stress = fmt::format("stress_{}", c.name);
+void require_one_of(TableReader& in, std::string_view first, std::string_view second) {
+  if (in.has(first) && in.has(second)) in.problem(first, fmt::format("`{}` is given as well; give one of the two", second));
+  if (!in.has(first) && !in.has(second)) in.problem(fmt::format("nothing drives this segment; give {} or {}", first, second));
 }
 
-void read_components(TableReader& in, PathSegment& segment, Driven& driven) {
+/// Either a rate along the component or its stress at the end of the segment.
+void drive_along(TableReader& in, const SymmetricComponent& c, std::optional<double> rate, std::optional<double> stress,
+                 PathSegment& segment, Driven& driven) {
+  require_one_of(in, "strain_rate", "stress");
+  if (stress) segment.free.push_back(held(c, *stress));
+  if (rate) segment.velocity_gradient = segment.velocity_gradient + *rate * c.direction;
+  driven = {rate, fmt::format("strain_{}", c.name), fmt::format("stress_{}", c.name)};
+}
+
+void drive(const ComponentKeys& keys, TableReader& in, PathSegment& segment, Driven& driven) {
   const auto& all = symmetric_components();
   std::vector<std::string> stress_components;
-  if (auto stress = in.optional_table("stress"))
+  if (auto stress = keys.stress)
     for (const SymmetricComponent& c : all)
       if (stress->has(c.name)) {
         segment.free.push_back(held(c, stress->number(c.name, any_stress)));
@@ -124,23 +111,23 @@ void read_components(TableReader& in, PathSegment& segment, Driven& driven) {
       return (name[0] == a && name[1] == b) || (name[0] == b && name[1] == a);
     });
   };
-  const int ways = in.has("strain_rate") + in.has("velocity_gradient") + in.has("deformation_gradient");
+  const int ways = keys.strain_rate.has_value() + keys.velocity_gradient.has_value() + keys.deformation_gradient.has_value();
   if (ways > 1) in.problem("give one of strain_rate, velocity_gradient and deformation_gradient");
   if (ways == 0 && segment.free.empty())
     in.problem("nothing drives this segment; give a mode, or strain_rate, velocity_gradient, deformation_gradient or stress");
-  if (auto table = in.optional_table("strain_rate")) {
+  if (auto table = keys.strain_rate) {
     for (const SymmetricComponent& c : all)
       if (table->has(c.name) && is_free(c.name[0], c.name[1]))
         table->problem(c.name, "its stress is prescribed as well; give one of the two");
     segment.velocity_gradient = to_tensor(symmetric_tensor(*table, any_rate));
   }
-  if (auto table = in.optional_table("velocity_gradient")) {
+  if (auto table = keys.velocity_gradient) {
     for (const GeneralComponent& c : general_components)
       if (table->has(c.name) && c.name[0] == c.name[1] && is_free(c.name[0], c.name[1]))
         table->problem(c.name, "its stress is prescribed as well; give one of the two");
-    segment.velocity_gradient = general_tensor(*table, {Unit::per_s, any_value, "velocity gradient"});
+    segment.velocity_gradient = general_tensor(*table, any_rate);
   }
-  if (auto table = in.optional_table("deformation_gradient")) {
+  if (auto table = keys.deformation_gradient) {
     segment.deformation_gradient = general_tensor(*table, {Unit::one, any_value, "deformation gradient"}, T::identity());
     if (determinant(*segment.deformation_gradient) <= 0.0)
       in.problem("deformation_gradient", "its determinant must be > 0: matter does not vanish or turn inside out");
@@ -157,96 +144,77 @@ void read_components(TableReader& in, PathSegment& segment, Driven& driven) {
   }
 }
 
-void read_uniaxial_stress(TableReader& in, PathSegment& segment, Driven& driven) {
-  const std::size_t axis = in.choice("axis", axes, 0);
-  const double pressure = in.number_or("lateral_pressure", 0.0, {Unit::Pa, any_value, "pressure on the sides"});
-  drive_along(in, diagonal(axis), segment, driven);
-  for (std::size_t side = 0; side < 3; ++side)
-    if (side != axis) segment.free.push_back(held(diagonal(side), -pressure));
+void drive(const UniaxialStressKeys& keys, TableReader& in, PathSegment& segment, Driven& driven) {
+  drive_along(in, diagonal(keys.axis), keys.strain_rate, keys.stress, segment, driven);
+  for (const Direction side : all_directions)
+    if (side != keys.axis) segment.free.push_back(held(diagonal(side), -keys.lateral_pressure));
 }
 
-void read_uniaxial_strain(TableReader& in, PathSegment& segment, Driven& driven) {
-  drive_along(in, diagonal(in.choice("axis", axes, 0)), segment, driven);
+void drive(const UniaxialStrainKeys& keys, TableReader& in, PathSegment& segment, Driven& driven) {
+  drive_along(in, diagonal(keys.axis), keys.strain_rate, keys.stress, segment, driven);
 }
 
-void read_plane_stress(TableReader& in, PathSegment& segment, Driven& driven) {
-  const std::size_t normal = in.choice("normal", axes, 2);
-  segment.velocity_gradient = to_tensor(symmetric_tensor(in.table("strain_rate", "rates in the plane"), any_rate));
-  if (symmetric_part(segment.velocity_gradient).*diagonal(normal).member != 0.0)
+void drive(const PlaneStressKeys& keys, TableReader& in, PathSegment& segment, Driven& driven) {
+  if (keys.strain_rate) segment.velocity_gradient = to_tensor(symmetric_tensor(*keys.strain_rate, any_rate));
+  if (symmetric_part(segment.velocity_gradient).*diagonal(keys.normal).member != 0.0)
     in.problem("strain_rate", "the rate along the normal follows from its stress; remove it");
-  segment.free.push_back(held(diagonal(normal), 0.0));
-  const std::size_t first = normal == 0 ? 1 : 0;
-  driven = {std::nullopt, fmt::format("strain_{0}{0}", axes[first]), fmt::format("stress_{0}{0}", axes[first])};
+  segment.free.push_back(held(diagonal(keys.normal), 0.0));
+  const std::string_view first = diagonal(keys.normal == Direction::x ? Direction::y : Direction::x).name;
+  driven = {std::nullopt, fmt::format("strain_{}", first), fmt::format("stress_{}", first)};
 }
 
-void read_biaxial_stress(TableReader& in, PathSegment& segment, Driven& driven) {
-  const double ratio = in.number("stress_ratio", {Unit::one, any_value, "stress along y over stress along x"});
-  drive_along(in, diagonal(0), segment, driven);
-  S weight = diagonal(1).weight;
-  weight.xx = -ratio;
-  segment.free.push_back({diagonal(1).direction, weight, {}, 0.0});
-  segment.free.push_back(held(diagonal(2), 0.0));
+void drive(const BiaxialStressKeys& keys, TableReader& in, PathSegment& segment, Driven& driven) {
+  drive_along(in, diagonal(Direction::x), keys.strain_rate, keys.stress, segment, driven);
+  S weight = diagonal(Direction::y).weight;
+  weight.xx = -keys.stress_ratio;
+  segment.free.push_back({diagonal(Direction::y).direction, weight, {}, 0.0});
+  segment.free.push_back(held(diagonal(Direction::z), 0.0));
 }
 
-void read_simple_shear(TableReader& in, PathSegment& segment, Driven& driven) {
-  const std::string_view plane = planes[in.choice("plane", planes, 0)];
-  const double rate = in.number("shear_rate", {Unit::per_s, any_value, "rate of the shear angle, d(gamma)/dt"});
+void drive(const SimpleShearKeys& keys, TableReader&, PathSegment& segment, Driven& driven) {
+  const std::string_view plane = choices<Plane>[static_cast<std::size_t>(keys.plane)];
   for (const GeneralComponent& c : general_components)
-    if (c.name == plane) segment.velocity_gradient.*c.member = rate;
+    if (c.name == plane) segment.velocity_gradient.*c.member = keys.shear_rate;
   const std::string ordered = plane[0] < plane[1] ? std::string(plane) : std::string{plane[1], plane[0]};
-  driven = {rate, fmt::format("F_{}", plane), fmt::format("stress_{}", ordered)};
+  driven = {keys.shear_rate, fmt::format("F_{}", plane), fmt::format("stress_{}", ordered)};
 }
 
-void read_hydrostatic(TableReader& in, PathSegment& segment, Driven& driven) {
-  if (in.has("pressure")) {
-    FreeDirection all{
-        T::identity(), (-1.0 / 3.0) * S::identity(), {}, in.number("pressure", {Unit::Pa, any_value, "pressure"})};
-    segment.free.push_back(all);
-  } else {
-    const double rate =
-        in.number("volume_strain_rate", {Unit::per_s, any_value, "rate of ln(volume), negative in compression"});
-    segment.velocity_gradient = (rate / 3.0) * T::identity();
-    driven.rate = rate;
-  }
-  driven.strain = "density";
-  driven.stress = "pressure";
+void drive(const HydrostaticKeys& keys, TableReader& in, PathSegment& segment, Driven& driven) {
+  require_one_of(in, "pressure", "volume_strain_rate");
+  if (keys.pressure) segment.free.push_back({T::identity(), (-1.0 / 3.0) * S::identity(), {}, *keys.pressure});
+  if (keys.volume_strain_rate) segment.velocity_gradient = (*keys.volume_strain_rate / 3.0) * T::identity();
+  driven = {keys.volume_strain_rate, "density", "pressure"};
 }
 
 /// The stress keeps a direction in the space of principal stresses: mean stress = triaxiality times equivalent stress, and
 /// a Lode angle of 0 in axisymmetric tension, 30 in shear, 60 in axisymmetric compression. The rate is the one conjugate to
 /// the equivalent stress.
-void read_constant_triaxiality(TableReader& in, PathSegment& segment, Driven& driven) {
-  const double triaxiality =
-      in.number("triaxiality", {Unit::one, between(-100.0, 100.0), "mean stress over equivalent stress"});
-  const double lode = in.number_or("lode_angle", 0.0, {degree, between(0.0, 60.0), "Lode angle"}) * std::numbers::pi / 180.0;
-  const double rate = in.number("strain_rate", {Unit::per_s, positive, "equivalent strain rate"});
+void drive(const ConstantTriaxialityKeys& keys, TableReader&, PathSegment& segment, Driven& driven) {
   constexpr double third = 2.0 * std::numbers::pi / 3.0;
+  const double lode = keys.lode_angle * std::numbers::pi / 180.0;
   const S n{
       2.0 / 3.0 * std::cos(lode), 2.0 / 3.0 * std::cos(lode - third), 2.0 / 3.0 * std::cos(lode + third), 0, 0, 0};  // s/q
   // The stress is q (n + triaxiality I) when it has no part along two directions at right angles to that.
   const S m{n.yy - n.zz, n.zz - n.xx, n.xx - n.yy, 0, 0, 0};
-  const S l = add_to_diagonal(triaxiality * n, -double_dot(n, n) / 3.0);
-  segment.free.push_back({diagonal(0).direction, m, {}, 0.0});
-  segment.free.push_back({diagonal(1).direction, l, {}, 0.0});
-  segment.free.push_back({diagonal(2).direction, {}, n, rate});
-  driven = {rate, "accumulated_strain", "equivalent_stress"};
+  const S l = add_to_diagonal(keys.triaxiality * n, -double_dot(n, n) / 3.0);
+  segment.free.push_back({diagonal(Direction::x).direction, m, {}, 0.0});
+  segment.free.push_back({diagonal(Direction::y).direction, l, {}, 0.0});
+  segment.free.push_back({diagonal(Direction::z).direction, {}, n, keys.strain_rate});
+  driven = {keys.strain_rate, "accumulated_strain", "equivalent_stress"};
 }
 
-struct Mode {
-  std::string_view name;
-  void (*read)(TableReader&, PathSegment&, Driven&);
-};
-constexpr std::array<Mode, 8> modes{{{"uniaxial_stress", read_uniaxial_stress},
-                                     {"uniaxial_strain", read_uniaxial_strain},
-                                     {"plane_stress", read_plane_stress},
-                                     {"biaxial_stress", read_biaxial_stress},
-                                     {"simple_shear", read_simple_shear},
-                                     {"hydrostatic", read_hydrostatic},
-                                     {"constant_triaxiality", read_constant_triaxiality},
-                                     {"hold", [](TableReader&, PathSegment&, Driven&) {}}}};
+void drive(const HoldKeys&, TableReader&, PathSegment&, Driven&) {}
 
-void read_until(TableReader& in, const std::vector<Column>& columns, const Driven& driven, PathSegment& segment) {
-  TableReader until = in.table("until");
+/// Reads the keys of a mode and drives the segment as they say.
+void drive(ModeName mode, TableReader& in, PathSegment& segment, Driven& driven) {
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    const auto chosen = static_cast<std::size_t>(mode);
+    ((I == chosen ? drive(read_keys<std::variant_alternative_t<I, ModeKeys>>(in), in, segment, driven) : void()), ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<ModeKeys>>());
+}
+
+void read_until(TableReader until, const std::vector<Column>& columns, const Driven& driven, PathSegment& segment) {
   const std::vector<std::string> keys = until.keys();
   if (keys.size() != 1) {
     until.problem(fmt::format("`until` names one column of the history and its value, as in {{ plastic_strain = 0.1 }}"));
@@ -267,15 +235,22 @@ void read_until(TableReader& in, const std::vector<Column>& columns, const Drive
   segment.until = Until{name, until.number(keys.front(), {Unit{column->unit}, any_value, "value that ends the segment"})};
 }
 
-void read_duration(TableReader& in, const Driven& driven, PathSegment& segment) {
-  segment.duration = in.optional_number("duration", {Unit::s, positive, "duration"});
-  if (!in.has("strain")) return;
-  const double strain = in.number("strain", {Unit::one, positive, "size of the change of strain"});
-  if (segment.duration) in.problem("strain", "the duration is given as well; give one of the two");
-  if (!driven.rate || *driven.rate == 0.0)
-    in.problem("strain", "there is no single strain rate that would turn it into a duration; give `duration`");
-  else
-    segment.duration = strain / std::abs(*driven.rate);
+/// The duration, given or that of the change of strain.
+std::optional<double> duration_of(const SegmentKeys& keys, TableReader& in, const Driven& driven) {
+  if (!keys.strain) return keys.duration;
+  const auto refuse = [&](std::string what) {
+    in.problem("strain", std::move(what));
+    return std::nullopt;
+  };
+  if (keys.duration) return refuse("the duration is given as well; give one of the two");
+  if (*keys.strain <= 0.0)
+    return refuse(
+        fmt::format("{:g} is out of range; it must be > 0: the size of the change, whose direction is the sign of the "
+                    "strain rate",
+                    *keys.strain));
+  if (!driven.rate) return refuse("there is no single strain rate that would turn it into a duration; give `duration`");
+  if (*driven.rate == 0.0) return refuse("it is never reached: the rate is zero; give a rate, or `duration`");
+  return *keys.strain / std::abs(*driven.rate);
 }
 
 struct Reader {
@@ -287,24 +262,22 @@ struct Reader {
     PathSegment segment;
     segment.where = where;
     Driven driven;
-    if (in.has("mode")) {
-      std::vector<std::string_view> names;
-      for (const Mode& mode : modes) names.push_back(mode.name);
-      const std::size_t chosen = in.choice("mode", names);
-      modes[chosen].read(in, segment, driven);
-    } else {
-      read_components(in, segment, driven);
-    }
-    read_duration(in, driven, segment);
-    if (in.has("until")) read_until(in, columns, driven, segment);
-    if (!segment.duration && !segment.until) in.problem("the segment has no end; give duration, strain or until");
-    segment.temperature = in.optional_number("temperature", {Unit::K, positive, "temperature from the start of the segment"});
-    segment.temperature_jump =
-        in.number_or("temperature_jump", 0.0, {Unit::K, any_value, "jump of the temperature at the start"});
-    if (in.has("temperature_rate")) {
-      segment.temperature_rate = in.number("temperature_rate", {Unit{"K/s"}, any_value, "rate of the temperature"});
-      if (path.heat != Heat::prescribed) in.problem("temperature_rate", "it needs heat = \"prescribed\"");
-    }
+    const auto keys = read_keys<SegmentKeys>(in);
+    if (keys.mode)
+      drive(*keys.mode, in, segment, driven);
+    else if (!in.has("mode"))
+      drive(read_keys<ComponentKeys>(in), in, segment, driven);
+    else
+      in.ignore_rest();  // without a mode the other keys mean nothing
+    segment.duration = duration_of(keys, in, driven);
+    if (keys.until) read_until(*keys.until, columns, driven, segment);
+    if (!in.has("duration") && !in.has("strain") && !in.has("until"))
+      in.problem("the segment has no end; give duration, strain or until");
+    segment.temperature = keys.temperature;
+    segment.temperature_jump = keys.temperature_jump;
+    segment.temperature_rate = keys.temperature_rate;
+    if (in.has("temperature_rate") && path.heat != Heat::prescribed)
+      in.problem("temperature_rate", "it needs heat = \"prescribed\"");
     drives(in, segment);
     if (path.x.empty()) path.x = driven.strain;
     if (path.y.empty()) path.y = driven.stress;
@@ -320,28 +293,20 @@ struct Reader {
   }
 
   void group(TableReader& in, const std::string& where) {
-    const int count = in.integer("repeat", 1, 100000);
+    const auto keys = read_keys<GroupKeys>(in);
     const std::size_t first = path.segments.size();
-    std::vector<TableReader> inner = in.tables("segment");
+    const OpenTables& inner = keys.segments;
     if (inner.empty()) in.problem("repeat", "there is nothing to repeat; add [[segment.segment]] tables");
     for (std::size_t i = 0; i < inner.size(); ++i) segment(inner[i], fmt::format("{}.{}", where, i + 1));
     const std::size_t size = path.segments.size() - first;
-    for (int i = 1; i < count; ++i)
+    for (int i = 1; i < keys.repeat; ++i)
       for (std::size_t k = 0; k < size; ++k) path.segments.push_back(path.segments[first + k]);
   }
 };
 
-void read_initial(TableReader in, LoadingPath& path) {
-  path.temperature = in.number("temperature", {Unit::K, positive, "initial temperature"});
-  path.density = in.optional_number("density", {Unit::kg_per_m3, positive, "initial density, if not the material's"});
-  path.plastic_strain = in.number_or("plastic_strain", 0.0, {Unit::one, non_negative, "initial plastic strain"});
-  path.porosity =
-      in.number_or("porosity", 0.0, {Unit::one, {.lower = 0.0, .upper = 1.0, .upper_open = true}, "initial porosity"});
-  path.damage = in.number_or("damage", 0.0, {Unit::one, fraction, "initial damage"});
-  if (auto stress = in.optional_table("stress")) path.stress = symmetric_tensor(*stress, any_stress);
-}
-
-void require_column(TableReader& in, std::string_view key, const std::string& name, const std::vector<Column>& columns) {
+void require_column(TableReader& top, std::string_view key, const std::string& name, const std::vector<Column>& columns) {
+  if (name.empty()) return;  // not given, or reported
+  TableReader in = top.table("plot");
   if (std::any_of(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; })) return;
   std::vector<std::string_view> names;
   for (const Column& c : columns) names.push_back(c.name);
@@ -364,76 +329,43 @@ PointCase read_case(const std::filesystem::path& file, const std::vector<std::st
   InputFile input = InputFile::load(file);
   for (const std::string& assignment : overrides) input.set(assignment);
   TableReader top = input.top();
-  PointCase result;
+  const auto keys = read_keys<PathKeys>(top);
+  const Material& material = keys.material.material;
+  PointCase result{keys.material, {}};
   LoadingPath& path = result.path;
-  path.title = top.text_or("title", file.stem().string());
-  result.file = resolve_material(top, "material");
-  const Material& material = result.file.material;
-  path.heat = top.choice<Heat>("heat");
-  path.on_failure = top.choice<OnFailure>("on_failure", OnFailure::stop);
-  path.strain_increment =
-      top.number_or("strain_increment", path.strain_increment,
-                    {Unit::one, {.lower = 0.0, .upper = 0.05, .lower_open = true}, "largest strain of a step"});
-  path.cell_size = top.number_or("cell_size", 0.0, {Unit::m, non_negative, "length of the artificial viscosity; 0: none"});
-  read_initial(top.table("initial", "the state at the start"), path);
+  path.title = keys.title.empty() ? file.stem().string() : keys.title;
+  path.heat = keys.heat;
+  path.on_failure = keys.on_failure;
+  path.strain_increment = keys.strain_increment;
+  path.cell_size = keys.cell_size;
+  path.temperature = keys.initial.temperature;
+  path.density = keys.initial.density;
+  path.plastic_strain = keys.initial.plastic_strain;
+  path.porosity = keys.initial.porosity;
+  path.damage = keys.initial.damage;
+  if (keys.initial.stress) path.stress = symmetric_tensor(*keys.initial.stress, any_stress);
+  if (keys.output.every && keys.output.rows)
+    top.table("output").problem("rows", "`every` is given as well; give one of the two");
+  path.output.every = keys.output.every.value_or(0);
+  path.output.rows = keys.output.rows.value_or(path.output.rows);
   const std::vector<Column> columns = columns_of(material);
-  if (auto output = top.optional_table("output")) {
-    path.output.every = output->integer_or("every", 0, 1, 1'000'000);
-    path.output.rows = output->integer_or("rows", path.output.rows, 2, 10'000'000);
-    if (output->has("every") && output->has("rows")) output->problem("rows", "`every` is given as well; give one of the two");
+  if (keys.plot) {
+    path.x = keys.plot->x;
+    path.y = keys.plot->y;
+    require_column(top, "x", path.x, columns);
+    require_column(top, "y", path.y, columns);
   }
-  std::vector<TableReader> segments = top.tables("segment");
+  const OpenTables& segments = keys.segments;
   if (segments.empty()) top.problem("there is no [[segment]]; a path has at least one");
-  if (auto plot = top.optional_table("plot")) {
-    path.x = plot->text("x", "column for the axis of abscissas");
-    path.y = plot->text("y", "column for the axis of ordinates");
-    require_column(*plot, "x", path.x, columns);
-    require_column(*plot, "y", path.y, columns);
-  }
   Reader reader{columns, path};
   for (std::size_t i = 0; i < segments.size(); ++i)
     reader.segment(segments[i], fmt::format("{}: segment {}", file.filename().string(), i + 1));
   if (path.x.empty()) path.x = "time";
   if (path.y.empty()) path.y = "equivalent_stress";
   check_heat(top, material, path);
-  if (auto sweep = top.optional_table("sweep")) sweep->ignore_rest();  // read_sweep reads it
+  if (auto sweep = keys.sweep) sweep->ignore_rest();  // read_sweep reads it
   input.finish();
   return result;
-}
-
-std::vector<SweepAxis> read_sweep(const std::filesystem::path& file) {
-  TomlNode root = parse_toml(read_text_file(file), file.string());
-  std::vector<SweepAxis> axes_found;
-  TomlEntry* sweep = std::get<TomlTable>(root.value).find("sweep");
-  if (!sweep) return axes_found;
-  std::vector<Problem> problems;
-  const auto wrong = [&](const TomlNode& node, const std::string& key, const std::string& what) {
-    problems.push_back({file.string(), node.place.line, node.place.column, key, what});
-  };
-  auto* table = std::get_if<TomlTable>(&sweep->node.value);
-  if (!table || table->entries.empty())
-    wrong(sweep->node, "sweep", "must be a table of lists, as in \"initial.temperature\" = [77, 298]");
-  for (const TomlEntry& entry : table ? table->entries : std::vector<TomlEntry>{}) {
-    const auto* list = std::get_if<TomlList>(&entry.node.value);
-    if (!list || list->empty()) {
-      wrong(entry.node, entry.key, "must be a list of values; a dotted key stands in quotes, as in \"initial.temperature\"");
-      continue;
-    }
-    SweepAxis axis{entry.key, {}};
-    for (const TomlNode& value : *list) {
-      if (const auto* number = std::get_if<double>(&value.value))
-        axis.values.push_back(shortest_text(*number));
-      else if (const auto* whole = std::get_if<std::int64_t>(&value.value))
-        axis.values.push_back(fmt::format("{}", *whole));
-      else if (const auto* text = std::get_if<std::string>(&value.value))
-        axis.values.push_back(*text);
-      else
-        wrong(value, entry.key, "holds something that is neither a number nor a text");
-    }
-    axes_found.push_back(std::move(axis));
-  }
-  if (!problems.empty()) throw InputError(std::move(problems));
-  return axes_found;
 }
 
 }  // namespace brisance::driver

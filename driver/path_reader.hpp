@@ -20,11 +20,4 @@ struct PointCase {
 /// Throws InputError with everything that is wrong in both files.
 PointCase read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-/// The values that the [sweep] table of a path file goes through: each key is the path of a value, as an override names it.
-struct SweepAxis {
-  std::string key;
-  std::vector<std::string> values;  // as text of TOML
-};
-std::vector<SweepAxis> read_sweep(const std::filesystem::path& file);
-
 }  // namespace brisance::driver

@@ -77,7 +77,7 @@ Figure figure_of(const std::string& title, const std::vector<std::pair<std::stri
     panel.x_label = x_axis.label;
     panel.y_label = y_axis.label;
     panel.legend = "outside right top vertical";
-    panel.wide = runs.size() > 1 && figure.panels.empty();  // the legend needs room
+    panel.wide = runs.size() > 1 && figure.panels.empty();  // the legend stands beside it
     for (std::size_t i = 0; i < runs.size(); ++i) {
       Curve curve{runs.size() > 1 && figure.panels.empty() ? runs[i].first : "",
                   {},

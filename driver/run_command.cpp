@@ -1,7 +1,6 @@
 #include "driver/run_command.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,6 +11,7 @@
 #include "driver/path_reader.hpp"
 #include "driver/plot.hpp"
 #include "driver/rate_form.hpp"
+#include "driver/sweep.hpp"
 #include "models/programs/progress.hpp"
 
 namespace brisance::driver {
@@ -94,82 +94,46 @@ int run_one(const RunOptions& options) {
   return done.outcome.ending == Ending::interrupted ? interrupted : ExitCode::done;
 }
 
-/// All combinations of the values of a sweep, the last key running fastest.
-std::vector<std::vector<std::string>> product(const std::vector<SweepAxis>& axes) {
-  std::vector<std::vector<std::string>> members{{}};
-  for (const SweepAxis& axis : axes) {
-    std::vector<std::vector<std::string>> longer;
-    for (const auto& member : members)
-      for (const std::string& value : axis.values) {
-        longer.push_back(member);
-        longer.back().push_back(value);
-      }
-    members = std::move(longer);
-  }
-  return members;
-}
-
-std::string member_name(const std::vector<SweepAxis>& axes, const std::vector<std::string>& values) {
-  std::string name;
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const std::string& key = axes[i].key;
-    name += fmt::format("{}{} = {}", i ? ", " : "", key.substr(key.rfind('.') + 1), values[i]);
-  }
-  return name;
-}
-
-/// One row for each member: its values and the state it ended in.
-void write_sweep_table(const std::vector<SweepAxis>& axes, const std::vector<std::vector<std::string>>& members,
-                       const std::vector<Done>& results, const std::filesystem::path& path) {
-  replace_file(path, [&](const std::filesystem::path& temporary) {
-    auto out = fmt::output_file(temporary.string());
-    out.print("member");
-    for (const SweepAxis& axis : axes) out.print(",{}", axis.key);
-    for (const Record::Series& s : results.front().record.series) out.print(",{} [{}]", s.name, s.unit);
-    out.print("\n");
-    for (std::size_t m = 0; m < results.size(); ++m) {
-      out.print("{}", m + 1);
-      for (const std::string& value : members[m]) out.print(",{}", value);
-      for (const Record::Series& s : results[m].record.series) out.print(",{}", s.values.back());
-      out.print("\n");
-    }
-  });
-}
-
-int run_sweep(const RunOptions& options, const std::vector<SweepAxis>& axes) {
-  const auto members = product(axes);
+int run_sweep(const RunOptions& options, std::vector<SweptValues> members) {
   // Every member is read before the first one runs: a mistake in the last one shows at once.
   std::vector<PointCase> points;
-  for (const auto& values : members) {
+  std::size_t width = 8;
+  for (SweptValues& values : members) {
     std::vector<std::string> overrides = options.overrides;
-    for (std::size_t i = 0; i < axes.size(); ++i) overrides.push_back(axes[i].key + "=" + values[i]);
+    for (const SweptValue& v : values) overrides.push_back(v.key + "=" + v.text);
     points.push_back(read_case(options.file, overrides));
+    find_units(values, points.back().file.material);
+    width = std::max(width, name_of(values).size());
   }
   fmt::print("{}: {} members\n", points.front().path.title, members.size());
-  std::size_t width = 8;
-  for (const auto& values : members) width = std::max(width, member_name(axes, values).size());
   fmt::print("  {:{}}  {:>13}  {:>13}  {:>11}  {:>11}  {}\n", "member", width, points.front().path.x, "stress, MPa", "temp., K",
              "plastic", "ending");
-  std::vector<Done> results;
+  std::vector<SweepMember> results;
+  const auto keep = [&] {
+    if (options.output.empty() || results.empty()) return;
+    write_sweep(results, options.output);
+    fmt::print("  histories: {}\n", options.output.string());
+  };
   bool was_interrupted = false;
   for (std::size_t m = 0; m < members.size() && !was_interrupted; ++m) {
-    std::filesystem::path output;
-    if (!options.output.empty()) output = options.output / fmt::format("member_{:03}.csv", m + 1);
-    results.push_back(follow_and_write(points[m], options, output));
-    const Outcome& outcome = results.back().outcome;
-    was_interrupted = outcome.ending == Ending::interrupted;
-    fmt::print("  {:{}}  {:13.6g}  {:13.6g}  {:11.2f}  {:11.5g}  {}\n", member_name(axes, members[m]), width,
-               results.back().record.find(points[m].path.x)->values.back(),
-               equivalent_stress(deviator(outcome.state.stress)) / 1e6, outcome.state.temperature, outcome.state.plastic_strain,
-               ending_text(outcome));
+    try {
+      Done done = follow_and_write(points[m], options, {});
+      results.push_back({members[m], std::move(done.record)});
+      const Outcome& outcome = done.outcome;
+      was_interrupted = outcome.ending == Ending::interrupted;
+      fmt::print("  {:{}}  {:13.6g}  {:13.6g}  {:11.2f}  {:11.5g}  {}\n", name_of(members[m]), width,
+                 results.back().record.find(points[m].path.x)->values.back(),
+                 equivalent_stress(deviator(outcome.state.stress)) / 1e6, outcome.state.temperature,
+                 outcome.state.plastic_strain, ending_text(outcome));
+    } catch (const RunError& error) {
+      keep();
+      throw RunError(fmt::format("{}: {}", name_of(members[m]), error.what()));
+    }
   }
-  if (!options.output.empty()) {
-    write_sweep_table(axes, members, results, options.output / "sweep.csv");
-    fmt::print("  histories and sweep.csv: {}\n", options.output.string());
-  }
+  keep();
   if (!options.figure.empty()) {
     std::vector<std::pair<std::string, const Record*>> runs;
-    for (std::size_t m = 0; m < results.size(); ++m) runs.emplace_back(member_name(axes, members[m]), &results[m].record);
+    for (const SweepMember& member : results) runs.emplace_back(name_of(member.values), &member.record);
     draw(figure_of(points.front().path.title, runs, points.front().path.x, points.front().path.y), options.figure);
     fmt::print("  figure: {}\n", options.figure.string());
   }
@@ -180,14 +144,13 @@ int run_sweep(const RunOptions& options, const std::vector<SweepAxis>& axes) {
 
 int run(const RunOptions& options) {
   catch_interrupts();
-  const std::vector<SweepAxis> axes = read_sweep(options.file);
-  const auto require_ending = [](const std::filesystem::path& path, std::initializer_list<std::string_view> endings) {
-    if (path.empty() || std::find(endings.begin(), endings.end(), path.extension().string()) != endings.end()) return;
-    throw std::invalid_argument(fmt::format("{}: the file name must end in {}", path.string(), fmt::join(endings, " or ")));
-  };
-  if (axes.empty()) require_ending(options.output, {".csv", ".h5", ".hdf5"});
-  require_ending(options.figure, {".png", ".svg"});
-  return axes.empty() ? run_one(options) : run_sweep(options, axes);
+  const std::vector<SweptValues> members = read_sweep(options.file);
+  if (members.empty())
+    require_place_for(options.output, {".csv", ".h5", ".hdf5"});
+  else
+    require_sweep_output(options.output);
+  require_place_for(options.figure, {".png", ".svg"});
+  return members.empty() ? run_one(options) : run_sweep(options, members);
 }
 
 }  // namespace brisance::driver

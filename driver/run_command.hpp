@@ -10,7 +10,7 @@ namespace brisance::driver {
 struct RunOptions {
   std::filesystem::path file;
   std::vector<std::string> overrides;
-  std::filesystem::path output;  // of the history: .csv, .h5; for a sweep a directory. Empty: none
+  std::filesystem::path output;  // of the history: .csv, .h5; for a sweep a directory too. Empty: none
   std::filesystem::path figure;  // .png, .svg. Empty: none
   bool reference = false;        // integrate the rate form along the same path and report the differences
 };

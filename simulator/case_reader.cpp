@@ -35,7 +35,7 @@ ShapePointer make_shape(Form form) {
   return std::make_shared<const Shape>(Shape{std::move(form)});
 }
 
-class CaseReader {
+class CaseReader : public KeyReader<CaseReader> {
  public:
   Case read(TableReader& top) {
     read_keys(top, case_);
@@ -53,14 +53,11 @@ class CaseReader {
   }
 
  private:
+  friend KeyReader<CaseReader>;
+  using KeyReader<CaseReader>::read_value;
+
   std::size_t dimensions() const { return static_cast<std::size_t>(case_.dimensions()); }
 
-  template <class Config>
-  void read_keys(TableReader& in, Config& config) {
-    for_each_key<Config>([&](const auto& key) {
-      if (key.required || in.has(key.name)) read_value(in, key, config.*key.member);
-    });
-  }
   template <class Config>
   Config read_struct(TableReader in) {
     Config config{};
@@ -71,43 +68,9 @@ class CaseReader {
   // --- Values ---------------------------------------------------------------------------------------------------------
 
   template <class K>
-  static Quantity quantity(const K& key) {
-    return {key.unit, key.interval, key.meaning};
-  }
-
-  template <class K>
-  void read_value(TableReader& in, const K& key, double& value) {
-    value = in.number(key.name, quantity(key));
-  }
-  template <class K>
-  void read_value(TableReader& in, const K& key, std::optional<double>& value) {
-    value = in.number(key.name, quantity(key));
-  }
-  template <class K>
-  void read_value(TableReader& in, const K& key, int& value) {
-    value = in.integer(key.name, static_cast<int>(key.interval.lower), static_cast<int>(key.interval.upper));
-  }
-  template <class K>
-  void read_value(TableReader& in, const K& key, std::uint64_t& value) {
-    value = static_cast<std::uint64_t>(
-        in.integer(key.name, static_cast<int>(key.interval.lower), static_cast<int>(key.interval.upper)));
-  }
-  template <class K>
-  void read_value(TableReader& in, const K& key, bool& value) {
-    value = in.flag(key.name);
-  }
-  template <class K>
-  void read_value(TableReader& in, const K& key, std::string& value) {
-    value = in.text(key.name, key.meaning);
-  }
-  template <class K>
   void read_value(TableReader& in, const K& key, Path& value) {
     const Path name = in.text(key.name, key.meaning);
     value = std::filesystem::absolute(in.file().parent_path() / name).lexically_normal();
-  }
-  template <class K>
-  void read_value(TableReader& in, const K& key, std::vector<std::string>& value) {
-    value = in.texts(key.name);
   }
   template <class K, class Enum>
   requires std::is_enum_v<Enum>
@@ -137,10 +100,6 @@ class CaseReader {
   template <class K>
   void read_value(TableReader& in, const K& key, std::optional<Table>& value) {
     read_value(in, key, value.emplace());
-  }
-  template <class K>
-  void read_value(TableReader& in, const K& key, MaterialFile& value) {
-    value = resolve_material(in, key.name);
   }
   template <class K>
   void read_value(TableReader& in, const K& key, ShapePointer& value) {
@@ -183,12 +142,17 @@ class CaseReader {
       value.push_back(std::move(config));
     }
   }
-  template <class K, class Config>
-  requires(std::tuple_size_v<decltype(keys<Config>)> > 0) void read_value(TableReader& in, const K& key, Config& value) {
+  template <class K>
+  void read_value(TableReader& in, const K& key, OutputConfig& value) {
     TableReader table = in.table(key.name);
     read_keys(table, value);
-    if constexpr (std::is_same_v<Config, OutputConfig>) check_figure_field(table, value.figure_field);
-    if constexpr (std::is_same_v<Config, NumericsConfig>) check_trimming(table, value);
+    check_figure_field(table, value.figure_field);
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, NumericsConfig& value) {
+    TableReader table = in.table(key.name);
+    read_keys(table, value);
+    check_trimming(table, value);
   }
 
   template <class... Law>

@@ -23,6 +23,10 @@ namespace {
 
 using Path = std::filesystem::path;
 
+constexpr const char* set_help =
+    "replace a value: cell_size=1e-3, \"solid.0.material.flow_stress.A=95 MPa\"; list elements count from 0, and a list with "
+    "texts stands in single quotes: 'solid.0.velocity=[0, \"-210 m/s\"]'";
+
 struct Options {
   Path file, directory;
   std::vector<std::string> overrides;
@@ -132,24 +136,23 @@ int list() {
   std::vector<std::string> materials;
   for (const Path& file : bundled_materials()) materials.push_back(file.filename().string());
   row("materials that come with the program", materials);
-  fmt::print("`brisance describe KEY` explains a key of a case file, `pointdriver list` the laws of materials\n");
+  fmt::print(
+      "`brisance describe NAME` explains these words and the keys of a case file, `pointdriver list` the laws of materials\n");
   return done;
 }
 
 int describe_keys(const std::string& key) {
+  if (key.empty()) {
+    fmt::print("{}`brisance describe KEY` explains a key, `brisance list` names values\n", overview_of(all_keys()));
+    return done;
+  }
   std::string suggestion;
   const std::vector<KeyDescription> found = describe_key(key, suggestion);
   if (found.empty()) {
     fmt::print(stderr, "describe: \"{}\" is no key of a case file{}\n", key, suggestion);
     return bad_input;
   }
-  for (const KeyDescription& k : found) {
-    fmt::print("{}\n  {}\n  values: {}\n", k.path, k.meaning, k.values);
-    if (k.default_value == "required")
-      fmt::print("  must be given\n");
-    else if (!k.default_value.empty())
-      fmt::print("  default: {}\n", k.default_value);
-  }
+  for (const KeyDescription& k : found) fmt::print("{}", page_of(k));
   return done;
 }
 
@@ -166,7 +169,7 @@ int run_command_line(int argc, char** argv) {
   };
   const auto add_case = [&](CLI::App* command) {
     command->add_option("CASE", o.file, "case file (TOML)")->required();
-    command->add_option("--set", o.overrides, "replace a value: key.0.key=value")->allow_extra_args(false);
+    command->add_option("--set", o.overrides, set_help)->allow_extra_args(false);
     add_threads(command);
   };
 
@@ -194,7 +197,7 @@ int run_command_line(int argc, char** argv) {
   app.add_subcommand("list", "Materials, shapes, boundaries, gauges and measures")->callback([&] { code = list(); });
 
   CLI::App* describe_command = app.add_subcommand("describe", "What a key of a case file means");
-  describe_command->add_option("KEY", o.key, "path or last name of a key, or a table")->required();
+  describe_command->add_option("KEY", o.key, "path or last name of a key, a table, or a value; without it all keys");
   describe_command->callback([&] { code = describe_keys(o.key); });
 
   return exit_code_of([&] {

@@ -1,68 +1,16 @@
 #include "simulator/keys.hpp"
 
-#include <cstdint>
-#include <type_traits>
-
-#include "models/input/diagnostics.hpp"
-#include "models/input/units.hpp"
+#include <variant>
 
 namespace brisance::simulator {
 namespace {
 
-template <class T>
-struct is_vector : std::false_type {};
-template <class T>
-struct is_vector<std::vector<T>> : std::true_type {};
-
-template <class Config>
-constexpr bool has_keys = std::tuple_size_v<decltype(keys<Config>)> > 0;
-
-class Describer {
- public:
-  template <class Config>
-  void describe_all(const std::string& above) {
-    const Config fresh{};
-    for_each_key<Config>([&](const auto& key) {
-      const std::string path = above.empty() ? std::string(key.name) : above + '.' + std::string(key.name);
-      describe(path, key, fresh.*key.member);
-    });
-  }
-  std::vector<KeyDescription> take() { return std::move(rows_); }
-
+class Describer : public KeyDescriber<Describer> {
  private:
-  template <class K>
-  void add(const std::string& path, const K& key, std::string values, std::string default_value = "") {
-    rows_.push_back({path, std::move(values), key.required ? "required" : std::move(default_value), std::string(key.meaning)});
-  }
-  template <class K>
-  static std::string numbers(const K& key) {
-    const std::string range = brisance::describe(key.interval);
-    return allowed_texts(key.unit) + (range == brisance::describe(any_value) ? "" : ", " + range);
-  }
+  friend KeyDescriber<Describer>;
+  using KeyDescriber<Describer>::describe;
 
   template <class K>
-  void describe(const std::string& path, const K& key, double fresh) {
-    add(path, key, numbers(key), shortest_text(fresh));
-  }
-  template <class K>
-  void describe(const std::string& path, const K& key, const std::optional<double>&) {
-    add(path, key, numbers(key));
-  }
-  template <class K, class Integer>
-  requires(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>) void describe(const std::string& path, const K& key,
-                                                                                        Integer fresh) {
-    add(path, key, "a whole number, " + brisance::describe(key.interval), std::to_string(fresh));
-  }
-  template <class K, class Bool>
-  requires std::is_same_v<Bool, bool>
-  void describe(const std::string& path, const K& key, Bool fresh) {
-    add(path, key, "true or false", fresh ? "true" : "false");
-  }
-  template <class K, class Enum>
-  requires std::is_enum_v<Enum>
-  void describe(const std::string& path, const K& key, Enum fresh) {
-    add(path, key, "one of " + listed(choices<Enum>), std::string(choices<Enum>[static_cast<std::size_t>(fresh)]));
-  }
   template <class K, class T>
   requires(std::is_enum_v<T> || std::is_same_v<T, bool>) void describe(const std::string& path, const K& key,
                                                                        const std::optional<T>&) {
@@ -70,16 +18,12 @@ class Describer {
     rows_.back().default_value = "";
   }
   template <class K>
-  void describe(const std::string& path, const K& key, const std::string& fresh) {
-    add(path, key, "a text", fresh);
-  }
-  template <class K>
   void describe(const std::string& path, const K& key, const std::filesystem::path&) {
     add(path, key, "the name of a file");
   }
   template <class K>
   void describe(const std::string& path, const K& key, const std::vector<std::string>&) {
-    add(path, key, "a list of texts, each one of " + listed(gauge_fields));
+    add(path, key, "a list of texts, each one of " + listed(gauge_fields), "", gauge_fields);
   }
   template <class K>
   void describe(const std::string& path, const K& key, const Vector&) {
@@ -138,19 +82,6 @@ class Describer {
   void describe(const std::string& path, const K& key, const std::optional<GasConfig>&) {
     describe(path, key, GasConfig{});
   }
-  template <class K, class Config>
-  requires has_keys<Config>
-  void describe(const std::string& path, const K& key, const Config&) {
-    add(path, key, "a table [" + path + ']');
-    describe_all<Config>(path);
-  }
-  template <class K, class Config>
-  void describe(const std::string& path, const K& key, const std::vector<Config>&) {
-    add(path, key, "a list of tables [[" + path + "]]");
-    describe_all<Config>(path);
-  }
-
-  std::vector<KeyDescription> rows_;
 };
 
 }  // namespace
@@ -165,20 +96,8 @@ const std::vector<KeyDescription>& all_keys() {
 }
 
 std::vector<KeyDescription> describe_key(std::string_view path, std::string& suggestion) {
-  std::vector<KeyDescription> found;
-  const std::string below = std::string(path) + '.', last = '.' + std::string(path);
-  for (const KeyDescription& row : all_keys())
-    if (row.path == path || row.path.starts_with(below)) found.push_back(row);
-  if (found.empty())
-    for (const KeyDescription& row : all_keys())
-      if (row.path.ends_with(last)) found.push_back(row);
-  if (!found.empty()) return found;
-  std::vector<std::string_view> names;
-  for (const KeyDescription& row : all_keys()) {
-    names.push_back(row.path);
-    names.push_back(std::string_view(row.path).substr(row.path.rfind('.') + 1));
-  }
-  suggestion = did_you_mean(path, names);
+  std::vector<KeyDescription> found = find_keys(all_keys(), path);
+  if (found.empty()) suggestion = did_you_mean(path, names_of(all_keys()));
   return found;
 }
 

@@ -2,40 +2,24 @@
 // The keys of a case file: one table per struct of config.hpp, from which the file is read, written and described.
 
 #include <array>
-#include <cstddef>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
+#include "models/input/key_table.hpp"
 #include "simulator/config.hpp"
 
 namespace brisance::simulator {
-
-/// How many components a Vector has in the file: those of the geometry, or always three.
-enum class Components { of_geometry, three };
-
-/// One key. If it may be left out, its default is what the member is in a new struct.
-template <class Config, class T>
-struct Key {
-  std::string_view name;
-  T Config::*member;
-  Unit unit;
-  std::string_view meaning;
-  Interval interval = any_value;
-  bool required = false;
-  Components components = Components::of_geometry;
-};
-inline constexpr bool required = true;
 
 /// Specialised for each struct that stands in a case file.
 template <class Config>
 inline constexpr std::tuple<> keys{};
 
-template <class Config, class F>
-constexpr void for_each_key(F&& f) {
-  std::apply([&](const auto&... key) { (f(key), ...); }, keys<Config>);
+template <class Config>
+constexpr const auto& keys_of(std::type_identity<Config>) {
+  return keys<Config>;
 }
 
 /// What a gauge may record.
@@ -310,18 +294,11 @@ inline constexpr auto keys<Case> =
 
 // Description ------------------------------------------------------------------------------------------------------------
 
-struct KeyDescription {
-  std::string path;           // "solid.velocity.translation"
-  std::string values;         // what may be written
-  std::string default_value;  // as TOML; "required" or empty
-  std::string meaning;
-};
-
 /// Every key of a case file, in the order of the tables above.
 const std::vector<KeyDescription>& all_keys();
 
-/// The descriptions of the keys with this path, or below it, or with this last name. Empty: none; then `suggestion` ends the
-/// error message.
+/// The descriptions of the keys with this path, or below it, or with this last name, or that may have this value. Empty: none;
+/// then `suggestion` ends the error message.
 std::vector<KeyDescription> describe_key(std::string_view path, std::string& suggestion);
 
 }  // namespace brisance::simulator

@@ -48,6 +48,18 @@ int edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// The names that a word is the beginning of, if they are few: "nadal" of "nadal_lepoac".
+std::vector<std::string_view> begun_by(std::string_view word, std::span<const std::string_view> candidates) {
+  constexpr std::size_t shortest = 3, most = 3;
+  std::vector<std::string_view> found;
+  if (word.size() < shortest || word.size() > longest_word) return found;
+  for (const std::string_view candidate : candidates)
+    if (lower_case(candidate).starts_with(lower_case(word)) && std::find(found.begin(), found.end(), candidate) == found.end())
+      found.push_back(candidate);
+  if (found.size() > most) found.clear();
+  return found;
+}
+
 std::string shortened(std::string_view text) {
   std::string_view shown = text.substr(0, longest_quotation);
   if (shown.size() < text.size()) {
@@ -94,8 +106,15 @@ std::optional<std::string_view> nearest(std::string_view word, std::span<const s
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates) {
-  const auto guess = nearest(word, candidates);
-  return guess ? "; did you mean \"" + std::string(*guess) + "\"?" : "";
+  std::vector<std::string_view> guesses;
+  if (const auto guess = nearest(word, candidates))
+    guesses.push_back(*guess);
+  else
+    guesses = begun_by(word, candidates);
+  if (guesses.empty()) return "";
+  std::string text;
+  for (const std::string_view guess : guesses) text += (text.empty() ? "\"" : " or \"") + std::string(guess) + '"';
+  return "; did you mean " + text + '?';
 }
 
 std::string in_quotes(std::string_view text) {

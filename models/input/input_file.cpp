@@ -34,8 +34,15 @@ TomlNode override_value(std::string_view text) {
     result = std::move(entries.front().node);
   } catch (const InputError& error) {
     if (text.empty()) throw InputError({{"", 0, 0, "", "the value is missing after \"=\""}});
-    if (text.find_first_of("\"'[]{}\n") != std::string_view::npos)
-      throw InputError({{"", 0, 0, "", error.problems().front().what}});
+    if (text.find_first_of("\"'[]{}\n") != std::string_view::npos) {
+      const bool list = text.front() == '[' && text.back() == ']' && text.find_first_of("\"'") == std::string_view::npos;
+      throw InputError(
+          {{"", 0, 0, "",
+            error.problems().front().what +
+                (list ? "; the shell takes quotes away: write the whole in single quotes, as in --set 'key=[0, \"1 "
+                        "mm\"]'"
+                      : "")}});
+    }
     result.value = std::string(text);
   }
   mark_overridden(result);

@@ -321,7 +321,11 @@ std::size_t length_of_number(std::string_view text) {
 
 UnitConversion::UnitConversion(std::string_view from, Unit to) : to_(to) {
   const Measure source = measure_of(from), target = measure_of(to.text);
-  if (!source.same_quantity(target)) throw UnitError("\"" + std::string(from) + "\" measures " + meaning_of(source));
+  if (!source.same_quantity(target)) {
+    const bool degrees = to.text == Unit::K.text && (from == "C" || from == "F");  // coulomb and farad
+    throw UnitError("\"" + std::string(from) + "\" measures " + meaning_of(source),
+                    degrees ? "; did you mean \"deg" + std::string(from) + "\"?" : "");
+  }
   factor_ = without_round_off(source.factor / target.factor);
   offset_ = source.offset / target.factor;
   std::array<char, 64> text;

@@ -67,21 +67,32 @@ std::string value_range(const Panel& panel) {
   return lower == 0.0 ? "0:1" : fmt::format("{}:{}", lower - 0.1 * std::abs(lower), lower + 0.1 * std::abs(lower));
 }
 
+/// The distance of tics along x, 1, 2 or 5 times a power of ten, that leaves room for their numbers; gnuplot's choice where
+/// that is known to be right.
+std::string tic_step(const Panel& panel) {
+  constexpr double most_tics = 6.0;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Curve& curve : panel.curves)
+    for (const double x : curve.x) low = std::min(low, x), high = std::max(high, x);
+  if (panel.x_range) low = (*panel.x_range)[0], high = (*panel.x_range)[1];
+  if (panel.logarithmic_x || panel.wide || panel.equal_axes || !(high > low)) return "autofreq";
+  const double decade = std::pow(10.0, std::floor(std::log10((high - low) / most_tics)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (high - low <= most_tics * factor * decade) return fmt::format("{:g}", factor * decade);
+  return fmt::format("{:g}", 10.0 * decade);
+}
+
 void draw_panel(Gnuplot& plot, const Panel& panel) {
   plot << "set title " << plain(panel.title) << " font ',12'\n";
-  plot << "set xlabel " << quoted_text(panel.x_label) << "\nset ylabel " << quoted_text(panel.y_label) << "\n";
+  const bool legend_below = panel.legend.starts_with("below");  // close to the label of the axis: that moves up
+  plot << "set xlabel " << quoted_text(panel.x_label) << " offset 0," << (legend_below ? "0.6" : "0") << "\nset ylabel "
+       << quoted_text(panel.y_label) << "\n";
   plot << "set xrange [*:*]\nset yrange [*:*]\n";
   if (panel.x_range) plot << fmt::format("set xrange [{}:{}]\n", (*panel.x_range)[0], (*panel.x_range)[1]);
   if (panel.y_range) plot << fmt::format("set yrange [{}:{}]\n", (*panel.y_range)[0], (*panel.y_range)[1]);
   plot << (panel.logarithmic_x ? "set logscale x\nset format x '10^{%L}'\n" : "unset logscale x\nset format x '%g'\n");
   plot << (panel.logarithmic_y ? "set logscale y\n" : "unset logscale y\n");
-  if (!panel.x_names.empty()) {
-    plot << "set bmargin 13\nset xtics rotate by 90 right (";
-    for (std::size_t i = 0; i < panel.x_names.size(); ++i) plot << (i ? ", " : "") << plain(panel.x_names[i]) << " " << i;
-    plot << ") font ',7'\n";
-  } else {
-    plot << "set bmargin\nset xtics norotate autofreq font ',10'\n";
-  }
+  plot << fmt::format("set xtics {} font ',10'\n", tic_step(panel));
   plot << (panel.equal_axes ? "set size ratio -1\n" : "set size noratio\n");
   plot << "set cbrange [" << value_range(panel) << "]\n";
   if (!panel.scale_label.empty())

@@ -36,7 +36,6 @@ struct Panel {
   double height = 1.0;              // of its row, in units of Figure::panel_height
   std::string legend = "top left";  // gnuplot's words for its place
   int legend_width = 0;  // characters kept free on the right, so that panels above each other are as wide; 0: as it needs
-  std::vector<std::string> x_names{};  // stand upright under x = 0, 1, 2, ...
 };
 
 struct Figure {

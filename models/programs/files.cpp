@@ -74,6 +74,18 @@ std::string seal_text(std::uint64_t sum) {
 
 }  // namespace
 
+void require_folder_for(const Path& path) {
+  const Path folder = path.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    throw std::invalid_argument(fmt::format("{}: there is no folder {}; make it first", path.string(), folder.string()));
+}
+
+void require_place_for(const Path& path, std::initializer_list<std::string_view> endings) {
+  require_folder_for(path);
+  if (!path.empty() && std::find(endings.begin(), endings.end(), path.extension().string()) == endings.end())
+    throw std::invalid_argument(fmt::format("{}: the file name must end in {}", path.string(), fmt::join(endings, " or ")));
+}
+
 void replace_file(const Path& path, const std::function<void(const Path&)>& write_to) {
   replace(path, write_to, false);
 }

@@ -3,9 +3,16 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <string_view>
 
 namespace brisance {
+
+/// What a user names for output goes into a folder that is there: a slip of the keyboard makes no new ones. Throws
+/// std::invalid_argument otherwise, before anything has been computed. An empty path stands for no output.
+void require_folder_for(const std::filesystem::path& path);
+/// The same for a file that must have one of these endings.
+void require_place_for(const std::filesystem::path& path, std::initializer_list<std::string_view> endings);
 
 /// Calls write_to(temporary path), then moves the result to its name. Throws std::runtime_error, naming the file, if either
 /// fails.

@@ -57,6 +57,32 @@ TEST(Describe, SuggestsWhatWasMeant) {
   EXPECT_TRUE(contains(a.err, "did you mean \"johnson_cook\"")) << a.err;
 }
 
+TEST(List, NamesEveryKeyOfEveryFile) {
+  const Answer a = call({"list"});
+  for (const char* key : {"segment.strain_rate", "segment.until", "segment.repeat", "initial.porosity", "output.every",
+                          "plot.x", "sweep", "experiment.where", "protocol.adiabatic_from", "protocol.summary_from",
+                          "model.material", "parameter.lower", "residual"})
+    EXPECT_TRUE(contains(a.out, std::string("  ") + key + " ")) << key;
+  EXPECT_EQ(call({"describe"}).out, a.out);
+}
+
+TEST(Describe, TellsAKeyWithItsUnitDefaultAndValues) {
+  const Answer rate = call({"describe", "segment.lateral_pressure"});
+  EXPECT_EQ(rate.code, done);
+  EXPECT_TRUE(contains(rate.out, "number in Pa")) << rate.out;
+  EXPECT_TRUE(contains(rate.out, "default: 0")) << rate.out;
+  EXPECT_TRUE(contains(call({"describe", "experiment.file"}).out, "must be given"));
+  EXPECT_TRUE(contains(call({"describe", "on_failure"}).out, "one of stop, continue"));
+}
+
+TEST(Describe, TellsAValueWithTheKeysThatBelongToIt) {
+  const Answer a = call({"describe", "simple_shear"});
+  EXPECT_EQ(a.code, done);
+  EXPECT_TRUE(contains(a.out, "segment.mode")) << a.out;
+  EXPECT_TRUE(contains(a.out, "segment.shear_rate")) << a.out;
+  EXPECT_FALSE(contains(a.out, "segment.triaxiality")) << a.out;
+}
+
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(call({"dance"}).code, bad_input);
   EXPECT_EQ(call({}).code, bad_input);
@@ -137,6 +163,14 @@ TEST(Run, RefusesPathsThatMakeNoSense) {
   EXPECT_TRUE(
       contains(error("[[segment]]\nmode = \"hydrostatic\"\npressure = \"1 GPa\"\nuntil = { pressure = 1 }\n"), "duration"));
   EXPECT_TRUE(contains(error(pull + "temperature_rate = 5\n"), "prescribed"));
+  EXPECT_TRUE(
+      contains(error("[[segment]]\nmode = \"uniaxial_stress\"\nstrain_rate = 1\nstrain = -0.3\n"), "sign of the strain rate"));
+  const std::string standing = error("[[segment]]\nmode = \"uniaxial_stress\"\nstrain_rate = 0\nstrain = 0.3\n");
+  EXPECT_TRUE(contains(standing, "the rate is zero"));
+  EXPECT_EQ(std::count(standing.begin(), standing.end(), '\n'), 1) << standing;
+  const std::string list = error(pull + "[plot]\nx = \"time\"\ny = [\"stress_xx\"]\n");
+  EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 1) << list;
+  EXPECT_TRUE(contains(error(pull + "temperature = \"298 C\"\n"), "did you mean \"degC\"?"));
 }
 
 TEST(Run, SaysWhatIsMissing) {
@@ -218,6 +252,41 @@ TEST(Sweep, RunsTheFullProductAndWritesATable) {
   const std::vector<double> stress = table.numbers("equivalent_stress", Unit::Pa);
   EXPECT_LT(stress[0], stress[1]);  // the last key runs fastest: 700 MPa, then 800
   EXPECT_GT(stress[0], stress[4]);  // 200 K, then 500 K
+}
+
+TEST(Sweep, WritesOneTableOrOneGroupForEachMember) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(directory / "sweep.toml", path_file(pull) +
+                                                                 "[sweep]\n\"segment.0.strain_rate\" = [1, 1000]\n"
+                                                                 "\"material.flow_stress.A\" = [\"700 MPa\", 8e8]\n");
+  ASSERT_EQ(call({"run", file, "-o", directory / "all.csv"}).code, done);
+  ASSERT_EQ(call({"run", file, "-o", directory / "all.h5"}).code, done);
+  const CsvFile csv = CsvFile::load(directory / "all.csv");
+  const std::vector<std::string> names = csv.column_names();
+  EXPECT_EQ(std::vector<std::string>(names.begin(), names.begin() + 4),
+            (std::vector<std::string>{"member", "segment.0.strain_rate", "material.flow_stress.A", "time"}));
+  const std::vector<double> A = csv.numbers("material.flow_stress.A", Unit::Pa),
+                            rate = csv.numbers("segment.0.strain_rate", Unit::per_s);
+  EXPECT_EQ(A.front(), 7e8);
+  EXPECT_EQ(A.back(), 8e8);
+  EXPECT_EQ(rate.front(), 1.0);
+  EXPECT_EQ(rate.back(), 1000.0);
+  const Record last = read_hdf5(directory / "all.h5", "member_004");
+  const std::vector<double> stress = csv.numbers("stress_xx", Unit::Pa), own = last.find("stress_xx")->values;
+  ASSERT_GT(own.size(), 50u);
+  EXPECT_TRUE(std::equal(own.begin(), own.end(), stress.end() - static_cast<std::ptrdiff_t>(own.size())));
+  EXPECT_EQ(read_hdf5_value(directory / "all.h5", "member_003", "material.flow_stress.A [Pa]"), 7e8);
+  EXPECT_EQ(call({"run", file, "-o", directory / "all.txt"}).code, bad_input);
+  EXPECT_FALSE(fs::exists(directory / "all.txt"));
+}
+
+TEST(Run, MakesNoFolderForAFileInAMistypedOne) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(directory / "pull.toml", path_file(pull));
+  const Answer a = call({"run", file, "-o", directory / "none/a.csv"});
+  EXPECT_EQ(a.code, bad_input);
+  EXPECT_TRUE(contains(a.err, "there is no folder")) << a.err;
+  EXPECT_FALSE(fs::exists(directory / "none"));
 }
 
 TEST(Sweep, FindsAMistakeInTheLastMemberBeforeTheFirstRuns) {

@@ -65,6 +65,12 @@ TEST(Comparison, FindsNoErrorInCurvesOfItsOwnLaw) {
   }
 }
 
+TEST(Comparison, OrdersTestsByTemperatureThenRate) {
+  std::vector<std::string> names;
+  for (const driver::Test& test : comparison_of(1.0, "").tests) names.push_back(test.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"cold", "pressed", "fast", "warm"}));
+}
+
 TEST(Comparison, MeasuresAKnownError) {
   const Comparison comparison = comparison_of(0.8, "adiabatic_from = \"1e9 1/s\"\nsmallest_plastic_strain = 0\n");
   const Results results = compare(comparison);

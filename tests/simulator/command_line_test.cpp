@@ -149,6 +149,17 @@ TEST(DescribeCommand, ExplainsKeysAndSuggestsNearOnes) {
   EXPECT_TRUE(contains(wrong.err, "did you mean \"cell_size\"?")) << wrong.err;
 }
 
+TEST(DescribeCommand, ExplainsValuesAndListsAllKeysWithoutOne) {
+  const Answer wall = call({"describe", "rigid_wall"});
+  EXPECT_EQ(wall.code, done);
+  EXPECT_TRUE(contains(wall.out, "boundary.kind")) << wall.out;
+  EXPECT_TRUE(contains(wall.out, "boundary.friction")) << wall.out;
+  const Answer all = call({"describe"});
+  EXPECT_EQ(all.code, done);
+  for (const char* key : {"cell_size ", "solid.velocity.rotation ", "numerics.courant ", "gates.residual "})
+    EXPECT_TRUE(contains(all.out, key)) << key;
+}
+
 TEST(ListCommand, NamesMaterialsAndMeasures) {
   const Answer a = call({"list"});
   EXPECT_EQ(a.code, done);

@@ -226,6 +226,8 @@ TEST(Override, ThatCannotBeAppliedIsReportedByItsKey) {
             "--set velocity.x: velocity is a list of 3 elements, counted from 0; it has no element \"x\"");
   EXPECT_EQ(refused({"velocity.0.x=1"}), "--set velocity.0.x: velocity.0 is the number 1, which has no parts");
   EXPECT_EQ(refused({"name.x=1"}), "--set name.x: name is a text, which has no parts");
+  const std::string without_quotes = refused({"velocity=[0, -210 m/s]"});
+  EXPECT_NE(without_quotes.find("single quotes"), std::string::npos) << without_quotes;
   EXPECT_EQ(refused({"name"}), "--set name: the value is missing; key=value is required");
   EXPECT_EQ(refused({"name="}), "--set name: the value is missing after \"=\"");
   EXPECT_EQ(refused({"=1"}), "--set \"\": the key has an empty part; table.key or list.0.key is required");
