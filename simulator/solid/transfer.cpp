@@ -284,13 +284,16 @@ void find_surface_weights(const Particles& ps, int p, const std::array<double, D
     ugimp(offsets, h, no_width, w);
 }
 
-/// Whether a particle reaches a rigid wall: the half axis of its deformed shape is not less than its distance.
+/// Whether a particle reaches a rigid wall within a step of dt (s): the half axis of its deformed shape is not less than its
+/// distance at the end. One that is flat and fast would otherwise be beyond the wall before it has touched it.
 template <int D>
-bool touches_wall(const Simulation& s, const Body& body, int p, const std::array<double, D>& position) {
+bool touches_wall(const Simulation& s, const Body& body, int p, const std::array<double, D>& position,
+                  const std::array<double, D>& velocity, double dt) {
   using L = Layout<D>;
   for (const Boundary& b : s.boundaries) {
     if (b.kind != BoundaryKind::rigid_wall) continue;
-    const double distance = (position[b.axis] - b.position) * b.inward;
+    const double approach = std::max(-velocity[b.axis] * b.inward, 0.0) * dt;
+    const double distance = (position[b.axis] - b.position) * b.inward - approach;
     if (distance > 2.0 * s.grid.cell_size) continue;
     const double* F = body.particles.rest.particle(p) + L::Rest::deformation_gradient * chunk_size + b.axis * D * chunk_size;
     double stretch = 0.0;  // of the row of F that belongs to the normal
@@ -302,8 +305,53 @@ bool touches_wall(const Simulation& s, const Body& body, int p, const std::array
   return false;
 }
 
+/// A plane with ghosts as a tile sees it: the ghosts are among the nodes of a particle whose nearest node is on the plane.
+struct GhostPlane {
+  std::size_t axis;
+  int plane, inward;  // plane: local index, as the base of a stencil
+  bool mirror;
+};
+template <int D>
+std::vector<GhostPlane> ghost_planes(const Simulation& s, BlockKey block) {
+  std::vector<GhostPlane> planes;
+  for (const Boundary& b : s.boundaries)
+    if (const int plane = b.has_ghosts() ? local_plane<D>(b, block) : -1; plane >= 0)
+      planes.push_back({static_cast<std::size_t>(b.axis), plane, b.inward, b.is_mirror()});
+  return planes;
+}
+
+/// Lever arms that, folded, are those of the folded weights, N (x_i - x): then a particle's affine motion arrives at the nodes
+/// as the linear field that it is. With the arms of the ghosts, a particle at distance y from the plane would leave the node
+/// inside with the velocity v + C h^2/(4 y), whatever the step: near the plane its gradient would grow from step to step.
+void reach_inside(const std::vector<GhostPlane>& planes, double h, Weights& w) {
+  for (const GhostPlane& p : planes) {
+    if (p.mirror || w.base[p.axis] != p.plane) continue;  // what a mirror adds is the motion of the mirrored particle
+    const auto ghost = static_cast<std::size_t>(1 - p.inward), inside = static_cast<std::size_t>(1 + p.inward);
+    const double moved = w.value[ghost][p.axis] * p.inward * h;
+    w.lever[ghost][p.axis] += moved, w.lever[inside][p.axis] -= moved;
+  }
+}
+
+/// Sum of the squares of a particle's folded weights: what it sees of a field that it alone has made with mass one.
+template <int D>
+double own_weight(const std::vector<GhostPlane>& planes, const Weights& w) {
+  double product = 1.0;
+  for (std::size_t a = 0; a < D; ++a) {
+    std::array<double, 3> N{w.value[0][a], w.value[1][a], w.value[2][a]};
+    for (const GhostPlane& p : planes) {
+      if (p.axis != a || w.base[a] != p.plane) continue;
+      double& ghost = N[static_cast<std::size_t>(1 - p.inward)];
+      N[1] += p.mirror ? 0.0 : 2.0 * ghost;
+      N[static_cast<std::size_t>(1 + p.inward)] += p.mirror ? ghost : -ghost;
+      ghost = 0.0;
+    }
+    product *= N[0] * N[0] + N[1] * N[1] + N[2] * N[2];
+  }
+  return product;
+}
+
 template <Geometry G, Basis basis>
-void to_tile(Simulation& s, const TileView& tile, Carry carry) {
+void to_tile(Simulation& s, const TileView& tile, Carry carry, double dt) {
   constexpr int D = dimensions_of<G>;
   using L = Layout<D>;
   const double h = s.grid.cell_size, inverse_h = 1.0 / h;
@@ -314,6 +362,7 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
   const bool has_field_force = s.body_force || dot(s.gravity, s.gravity) > 0.0;
   const Lanes momentum_channels = pack(0, 1, 1, 1, 0, 0, 0, 0), force_channels = pack(0, 0, 0, 0, 1, 1, 1, 0);
   const std::size_t length = static_cast<std::size_t>(s.grid.fields) * Block<D>::tile_nodes;
+  const std::vector<GhostPlane> planes = ghost_planes<D>(s, tile.key);
   Weights w;
   Lanes* nodes = s.grid.tile(tile.number, 0);
   std::fill(nodes, nodes + length, Lanes(0.0));
@@ -344,7 +393,7 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
           for (std::size_t a = 0; a < D; ++a) field_force[a] = m * b[a];
         }
       }
-      if (walls && touches_wall<D>(s, body, static_cast<int>(p), x)) touch = 1.0;
+      if (walls && touches_wall<D>(s, body, static_cast<int>(p), x, v, dt)) touch = 1.0;
       const double mC = motion && affine ? m : 0.0;
       const auto C = [&](int a, int b) { return mC * from[(L::Motion::affine + D * a + b) * chunk_size]; };
       const Lanes value = pack(m, mv[0], mv[1], mv[2], field_force[0], field_force[1], field_force[2], touch);
@@ -354,6 +403,7 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
                 pack(0.0, C(0, 2), C(1, 2), C(2, 2), f.xz, f.yz, f.zz)};
       else
         both = {pack(0.0, C(0, 0), C(1, 0), 0.0, f.xx, f.xy), pack(0.0, C(0, 1), C(1, 1), 0.0, f.xy, f.yy)};
+      reach_inside(planes, h, w);
       std::array<std::array<Lanes, 3>, D> slope;
       for (int a = 0; a < D; ++a) {
         const Lanes A = momentum_channels * both[a], S = force_channels * both[a];
@@ -429,6 +479,9 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
   const bool outflow =
       std::any_of(s.boundaries.begin(), s.boundaries.end(), [](const Boundary& b) { return b.kind == BoundaryKind::outflow; });
   const int fields = s.grid.fields;
+  constexpr double anothers_mass = 1e-3;  // relative to its own, that a particle alone may see
+  const double kept_alone = std::exp(-step.dt * s.extremes.wave_speed / h);
+  const std::vector<GhostPlane> planes = ghost_planes<D>(s, tile.key);
   Weights w;
   std::vector<Lanes> motion(static_cast<std::size_t>(fields) * Block<D>::tile_nodes);
   for (int f = 0; f < fields; ++f) {
@@ -465,12 +518,17 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
         x_new[a] = x[a] + step.dt * v_grid[a];
         to[a * chunk_size] = x_new[a], to[(L::Motion::velocity + a) * chunk_size] = v_new[a];
       }
+      // A particle that has its nodes to itself learns nothing about a velocity gradient from them: it would get back the one
+      // that it gave, for ever, and a melt would stretch exponentially. A fragment comes to rest in itself while sound crosses
+      // it.
+      const bool alone = value.c[Channel::mass] <= (1.0 + anothers_mass) * m * own_weight<D>(planes, w);
+      const double kept = alone ? kept_alone : 1.0;
       std::array<Lanes, D> affine_momentum;
       for (int b = 0; b < D; ++b) {
         std::array<double, 3> mC{};
         const Channels moment = Channels::of(grid.slope[b]);
         for (int a = 0; a < D; ++a) {
-          const double C = aflip ? moment.c[Channel::velocity + a] / w.spread[b] : 0.0;
+          const double C = aflip ? kept * moment.c[Channel::velocity + a] / w.spread[b] : 0.0;
           to[(L::Motion::affine + D * a + b) * chunk_size] = C;
           mC[a] = m * C;
         }
@@ -501,6 +559,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
 
       if (step.remap) {
         const Vector mv = m * padded(v_new);
+        reach_inside(planes, h, w);
         std::array<std::array<Lanes, 3>, D> slope;
         for (int a = 0; a < D; ++a)
           for (int k = 0; k < 3; ++k) slope[a][k] = Lanes(w.lever[k][a]) * affine_momentum[a];
@@ -599,10 +658,10 @@ Vector acceleration_field(const Simulation& s, const Vector& position) {
   return s.body_force ? s.gravity + s.body_force(position, s.time) : s.gravity;
 }
 
-void particles_to_grid(Simulation& s, Carry carry) {
+void particles_to_grid(Simulation& s, Carry carry, double dt) {
   const Timed timed(s.times, Phase::particles_to_grid);
   with_kernel(s, [&]<Geometry G, Basis basis>() {
-    parallel_for_blocks(s.grid.my_tiles.size(), [&](std::size_t i) { to_tile<G, basis>(s, view(s.grid, i), carry); });
+    parallel_for_blocks(s.grid.my_tiles.size(), [&](std::size_t i) { to_tile<G, basis>(s, view(s.grid, i), carry, dt); });
   });
 }
 
