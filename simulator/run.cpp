@@ -15,6 +15,7 @@
 #include "simulator/output/gauges.hpp"
 #include "simulator/output/run_directory.hpp"
 #include "simulator/output/snapshot.hpp"
+#include "simulator/solid/worst_particle.hpp"
 #include "simulator/time_step.hpp"
 
 namespace brisance::simulator {
@@ -172,6 +173,7 @@ class Run {
       result.ending = interrupted_ ? Ending::interrupted : Ending::done;
     } catch (const std::exception& error) {
       result.ending = Ending::failed;
+      if (dynamic_cast<const RunFailure*>(&error)) keep_last_state();
       result.message = fmt::format(
           "{}\n{}", error.what(),
           last_checkpoint_.empty() ? "no checkpoint has been written" : "last checkpoint: " + last_checkpoint_.string());
@@ -179,6 +181,16 @@ class Run {
     progress_line_.reset();
     finish(result);
     return result;
+  }
+
+  /// A run fails between two steps: the state is good, and what is wrong with it can be looked at.
+  void keep_last_state() {
+    try {
+      if (snapshot_times_.empty() || snapshot_times_.back() != s_.time) add_snapshot();
+      add_checkpoint();
+    } catch (const std::exception& error) {
+      log_.line(error.what());
+    }
   }
 
   void loop() {
@@ -217,7 +229,7 @@ class Run {
         throw RunFailure(fmt::format(
             "step {} at {:.6g} s would have to be {:.4g} s{}; it is limited by {}{}", s_.step + 1, s_.time, size.dt,
             case_.numerics.least_step > 0.0 ? fmt::format(", less than {:.4g} s", case_.numerics.least_step) : "", size.limit,
-            halvings > 0 ? fmt::format(", and was rejected {} times: particles deform too fast", halvings) : ""));
+            halvings > 0 ? fmt::format(", and was rejected {} times: {}", halvings, fastest_deforming(s_)) : ""));
       if (advance(s_, size.dt) == StepOutcome::done) return;
       constexpr int most_lines = 100;
       if (++rejections_ <= most_lines)

@@ -10,6 +10,7 @@
 #include "models/update.hpp"
 #include "simulator/domain/message.hpp"
 #include "simulator/parallel.hpp"
+#include "simulator/solid/worst_particle.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -152,20 +153,9 @@ struct Failing {
   std::uint64_t id = ~std::uint64_t{0};
 };
 
-template <int D>
 [[noreturn]] void report(const Simulation& s, const Body& body, const Failing& f) {
-  using L = Layout<D>;
-  const Particles& ps = body.particles;
-  const double* rest = ps.rest.particle(f.particle);
-  std::string place;
-  for (int a = 0; a < D; ++a) place += fmt::format("{}{:.6g}", a ? ", " : "", ps.motion.at(a, f.particle));
   throw std::runtime_error(
-      fmt::format("{}: particle {} at ({}) m, step {}, time {:.6g} s: {}; temperature {:.5g} K, plastic strain {:.4g}, plastic "
-                  "strain rate {:.4g} /s, "
-                  "density {:.6g} kg/m^3",
-                  body.name, f.id, place, s.step, s.time, describe(f.trouble), rest[L::Rest::temperature * chunk_size],
-                  rest[L::Rest::plastic_strain * chunk_size], rest[L::Rest::plastic_strain_rate * chunk_size],
-                  ps.load.at(L::Load::density, f.particle)));
+      fmt::format("step {}, time {:.6g} s: {}; {}", s.step + 1, s.time, describe(f.trouble), facts(s, body, f.particle)));
 }
 
 /// The material's own update of the particles of one batch.
@@ -235,7 +225,7 @@ void advance_all(Simulation& s, double dt, ColumnSet Particles::*velocities) {
     for (const Extremes& e : extremes) all |= e;
     const auto worst =
         std::min_element(failing.begin(), failing.end(), [](const Failing& a, const Failing& b) { return a.id < b.id; });
-    if (worst != failing.end() && worst->trouble != Trouble::none) report<D>(s, body, *worst);
+    if (worst != failing.end() && worst->trouble != Trouble::none) report(s, body, *worst);
   }
   s.extremes = over_all_ranks(*s.domain, all);
 }
