@@ -67,8 +67,8 @@ void melting_temperature(const M& material, Batch<Real>& batch) {
   });
 }
 
-/// The shear modulus of the step. The elastic deviatoric strain is kept when the modulus changes, so the deviator scales; on
-/// melting its energy becomes heat.
+/// The shear modulus of the step. The elastic deviatoric strain is kept when the modulus changes, so the deviator scales. A
+/// melt has none: on melting the energy of the deviator becomes heat, and what freezes starts without a deviator.
 template <class M, class Real>
 void shear_modulus(const M& material, Batch<Real>& batch) {
   visit_law(material.shear_modulus, [&](const auto& law) {
@@ -81,9 +81,7 @@ void shear_modulus(const M& material, Batch<Real>& batch) {
       const mask_of<Real> carries = s.shear_modulus > 0.0;
       const Real before = select(carries, s.shear_modulus, Real(1.0));
       p.released_heat = select(melted & carries, double_dot(p.deviator, p.deviator) / (4.0 * before * s.density), Real(0.0));
-      // A melt bears no deviator, not even what rounding leaves of one: it would count as flow without end.
-      const Real factor = select(carries, now / before, select(melted, Real(0.0), Real(1.0)));
-      p.deviator = factor * p.deviator;
+      p.deviator = select(carries, now / before, Real(0.0)) * p.deviator;
       s.shear_modulus = now;
     }
   });
@@ -101,19 +99,21 @@ Real pressure_at(const Law& law, const Real& rho, const Real& energy, const Real
 namespace detail {
 
 template <class Law, class Real>
-[[gnu::flatten]] void trial_pressure(const Law& law, Batch<Real>& batch) {
+void trial_pressure(const Law& law, Point<Real>& p) {
   using equation_of_state::Caloric;
-  for (Point<Real>& p : batch) {
-    const State<Real>& s = p.state;
-    const Real rho = p.metal_density;
-    const Real e = Law::caloric == Caloric::thermal ? law.energy(rho, s.temperature) : s.energy;
-    p.bulk_modulus = rho * equation_of_state::sound_speed_squared(law, rho, e);
-    const Real trial = law.pressure(rho, e);
-    if constexpr (Law::caloric == Caloric::incremental)
-      p.trial_pressure = p.pressure_before + trial - law.pressure(p.metal_density_before, e);
-    else
-      p.trial_pressure = trial;
-  }
+  const State<Real>& s = p.state;
+  const Real rho = p.metal_density;
+  const Real e = Law::caloric == Caloric::thermal ? law.energy(rho, s.temperature) : s.energy;
+  p.bulk_modulus = rho * equation_of_state::sound_speed_squared(law, rho, e);
+  const Real trial = law.pressure(rho, e);
+  if constexpr (Law::caloric == Caloric::incremental)
+    p.trial_pressure = p.pressure_before + trial - law.pressure(p.metal_density_before, e);
+  else
+    p.trial_pressure = trial;
+}
+template <class Law, class Real>
+[[gnu::flatten]] void trial_pressure(const Law& law, Batch<Real>& batch) {
+  for (Point<Real>& p : batch) trial_pressure(law, p);
 }
 
 }  // namespace detail
@@ -123,6 +123,38 @@ template <class M, class Real>
 void elastic_trial(const M& material, Batch<Real>& batch) {
   for (Point<Real>& p : batch) p.deviator = p.deviator + 2.0 * p.state.shear_modulus * deviator(p.strain_increment);
   visit_law(material.equation_of_state, [&](const auto& law) { detail::trial_pressure(law, batch); });
+}
+
+/// A melt bears no tension: it opens voids instead, and closes them before it bears pressure again. However far it is
+/// dispersed, the density of the metal in it stays where its pressure vanishes.
+template <class M, class Real>
+void cavitation(const M& material, Batch<Real>& batch) {
+  for (Point<Real>& p : batch) p.plastic_volume_increment = Real(0.0);
+  if (!is_present(material.shear_modulus)) return;
+  constexpr int most_iterations = 8;
+  constexpr double negligible = 1e-12;  // of the bulk modulus
+  visit_law(material.equation_of_state, [&](const auto& law) {
+    for (Point<Real>& p : batch) {
+      State<Real>& s = p.state;
+      const Real before = s.plastic_volume_strain;
+      const mask_of<Real> melted = s.temperature >= p.melting_temperature;
+      if (none(melted)) continue;
+      mask_of<Real> active = melted & ((p.trial_pressure < 0.0) | ((before > 0.0) & (p.trial_pressure > 0.0)));
+      // Newton's method: rho dp/drho is the bulk modulus where p = 0.
+      for (int i = 0; i < most_iterations && any(active); ++i) {
+        const Real v = max(s.plastic_volume_strain - p.trial_pressure / p.bulk_modulus, Real(0.0));
+        const mask_of<Real> moved = abs(v - s.plastic_volume_strain) > negligible;
+        s.plastic_volume_strain = select(active, v, s.plastic_volume_strain);
+        p.metal_density = metal_density(s);
+        detail::trial_pressure(law, p);
+        active = active & moved;
+      }
+      p.plastic_volume_increment = s.plastic_volume_strain - before;
+      // Sound travels in the metal between the voids.
+      const mask_of<Real> dispersed = melted & (s.plastic_volume_strain > 0.0);
+      p.bulk_modulus = select(dispersed, p.bulk_modulus * s.density / p.metal_density, p.bulk_modulus);
+    }
+  });
 }
 
 template <class M, class Real>
@@ -206,7 +238,7 @@ Returned<Real> return_in_parts(const Surface& surface, const Law& law, const por
 template <class M, class Real>
 void return_mapping(const M& material, Batch<Real>& batch, double dt) {
   for (Point<Real>& p : batch) {
-    p.plastic_strain_increment = p.plastic_volume_increment = p.plastic_work = Real(0.0);
+    p.plastic_strain_increment = p.plastic_work = Real(0.0);
     if (!is_present(material.flow_stress)) continue;
     p.state.plastic_strain_rate = select(p.state.plastic_strain_rate > 0.0, p.state.plastic_strain_rate, Real(0.0));
   }
@@ -230,7 +262,7 @@ void return_mapping(const M& material, Batch<Real>& batch, double dt) {
         report(p, !end.converged, Trouble::yield_not_converged);
         p.flow_stress = end.flow_stress;
         p.plastic_strain_increment = end.plastic_strain_increment;
-        p.plastic_volume_increment = end.plastic_volume_increment;
+        p.plastic_volume_increment = p.plastic_volume_increment + end.plastic_volume_increment;
         p.plastic_work = end.plastic_work;
         s.flow_history = end.flow_history;
         s.plastic_volume_strain = s.plastic_volume_strain + end.plastic_volume_increment;
@@ -318,8 +350,10 @@ void pressure(const M& material, Batch<Real>& batch) {
           active = active & (abs(step) > 1e-13 * (abs(p.pressure) + 1e-9 * p.bulk_modulus));
         }
       }
-      if (is_present(material.shear_modulus))  // a melt bears no tension
-        p.pressure = select(s.temperature >= p.melting_temperature, max(p.pressure, Real(0.0)), p.pressure);
+      if (is_present(material.shear_modulus)) {  // a melt bears no tension, and no pressure while it has voids
+        const Real of_melt = select(s.plastic_volume_strain > 0.0, Real(0.0), max(p.pressure, Real(0.0)));
+        p.pressure = select(s.temperature >= p.melting_temperature, of_melt, p.pressure);
+      }
       s.energy = energy_but_p - 0.5 * p.pressure * volume_change;
       if constexpr (Law::caloric == Caloric::complete) s.temperature = equation_of_state::temperature(law, rho, s.energy);
       s.stress = add_to_diagonal(p.deviator, -p.pressure);
@@ -481,6 +515,7 @@ void advance(const M& material, Batch<Real>& points, double dt) {
   melting_temperature(material, points);
   shear_modulus(material, points);
   elastic_trial(material, points);
+  cavitation(material, points);
   artificial_viscosity(material, points);
   return_mapping(material, points, dt);
   viscoelastic_stress(material, points, dt);

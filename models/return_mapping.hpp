@@ -60,7 +60,8 @@ auto flow_stress_after(const Law& law, const Trial<Real>& trial, const Number& x
 /// Plastic strain increments below this part of the elastic strain do not change a stress in double precision.
 inline constexpr double imperceptible = 1e-18;
 
-/// Inside the yield surface: everything stays as it is.
+/// Inside the yield surface, and without shear stiffness: everything stays as it is. A melt flows without doing plastic work,
+/// and its plastic strain, the measure of what the crystal has hardened, does not grow.
 template <class Real>
 Returned<Real> elastic(const Trial<Real>& trial, const Real& flow_stress) {
   return {trial.equivalent_stress, trial.mean_stress, Real(0.0),          Real(0.0), Real(0.0), flow_stress,
@@ -165,12 +166,13 @@ template <class Law, class Real>
   constexpr double evident = 1e-6;
   const Real least = evident * trial.equivalent_stress / max(3.0 * trial.shear_modulus, Real(1e-300));
   const auto unknown = detail::elastic(trial, Real(0.0));
-  Returned<Real> result = detail::return_to_matrix_stress(law, trial, trial.last_rate > 0.0, unknown, least);
-  const mask_of<Real> others = !(result.converged & (trial.last_rate > 0.0));
+  const mask_of<Real> stiff = trial.shear_modulus > 0.0, flowed = stiff & (trial.last_rate > 0.0);
+  Returned<Real> result = detail::return_to_matrix_stress(law, trial, flowed, unknown, least);
+  const mask_of<Real> others = !(result.converged & flowed);
   if (none(others)) return result;
   const Real quasi_static = detail::flow_stress_after(law, trial, Real(0.0)).flow_stress;
   const auto inside = detail::elastic(trial, quasi_static);
-  const mask_of<Real> plastic = others & (trial.equivalent_stress > quasi_static);
+  const mask_of<Real> plastic = others & stiff & (trial.equivalent_stress > quasi_static);
   detail::replace(others, result, detail::return_to_matrix_stress(law, trial, plastic, inside));
   return result;
 }
@@ -231,7 +233,6 @@ Returned<Real> return_to_surface(const yield::GursonTvergaardNeedleman& surface,
   const Real q_trial = trial.equivalent_stress, mean = trial.mean_stress;
   const Real z0 = clamp(1.5 * surface.q2 * mean / safe_Y0, -300.0, 300.0);
   const Real size0 = 1.0 + surface.q3 * f_star * f_star - 2.0 * surface.q1 * f_star * cosh(z0);
-  // A melt carries no shear: its yield surface is left alone.
   const mask_of<Real> yields = (Y0 > 0.0) & (trial.shear_modulus > 0.0) & (q_trial * q_trial > Y0 * Y0 * size0);
 
   // Without voids, and where the reference option asks for it, the return ends on q = Y.

@@ -23,7 +23,7 @@ struct State {
   Real temperature{0.0};                                         // K
   Real plastic_strain{0.0};                                      // -, of the matrix
   Real plastic_strain_rate{0.0};                                 // 1/s, of the matrix
-  Real plastic_volume_strain{0.0};                               // -, logarithmic, from dilatant flow
+  Real plastic_volume_strain{0.0};                               // -, logarithmic, voids of dilatant flow or a melt
   Real porosity{0.0};                                            // -
   Real damage{0.0};                                              // -
   Real shear_modulus{0.0};                                       // Pa, the one the stress was computed with

@@ -10,7 +10,6 @@ class Describer : public KeyDescriber<Describer> {
   friend KeyDescriber<Describer>;
   using KeyDescriber<Describer>::describe;
 
-  template <class K>
   template <class K, class T>
   requires(std::is_enum_v<T> || std::is_same_v<T, bool>) void describe(const std::string& path, const K& key,
                                                                        const std::optional<T>&) {

@@ -118,6 +118,7 @@ class Run {
       result.ending = interrupted_ ? Ending::interrupted : Ending::done;
     } catch (const std::exception& error) {
       result.ending = Ending::failed;
+      if (dynamic_cast<const RunFailure*>(&error)) keep_last_state();
       result.message = fmt::format(
           "{}\n{}", error.what(),
           last_checkpoint_.empty() ? "no checkpoint has been written" : "last checkpoint: " + last_checkpoint_.string());
@@ -125,6 +126,16 @@ class Run {
     progress_line_.reset();
     finish(result);
     return result;
+  }
+
+  /// A run fails between two steps: the state is good, and what is wrong with it can be looked at.
+  void keep_last_state() {
+    try {
+      if (snapshot_times_.empty() || snapshot_times_.back() != s_.time) add_snapshot();
+      add_checkpoint();
+    } catch (const std::exception& error) {
+      log_.line(error.what());
+    }
   }
 
   void loop() {

@@ -27,7 +27,7 @@ bool deform(Simulation& s, double dt, ColumnSet Particles::*velocities) {
 }
 
 StepOutcome advance_musl(Simulation& s, double dt, double dt_velocity) {
-  particles_to_grid(s, Carry::motion_and_force);
+  particles_to_grid(s, Carry::motion_and_force, dt);
   share_momentum(s);
   const NodeResult nodes = accelerate(s, dt_velocity);
   broadcast_motion(s.grid, *s.domain);
@@ -40,7 +40,7 @@ StepOutcome advance_musl(Simulation& s, double dt, double dt_velocity) {
 }
 
 StepOutcome advance_usl(Simulation& s, double dt, double dt_velocity) {
-  particles_to_grid(s, Carry::motion_and_force);
+  particles_to_grid(s, Carry::motion_and_force, dt);
   share_momentum(s);
   const NodeResult nodes = accelerate(s, dt_velocity);
   broadcast_motion(s.grid, *s.domain);
@@ -51,11 +51,11 @@ StepOutcome advance_usl(Simulation& s, double dt, double dt_velocity) {
 }
 
 StepOutcome advance_usf(Simulation& s, double dt, double dt_velocity) {
-  particles_to_grid(s, Carry::motion);
+  particles_to_grid(s, Carry::motion, dt);
   share_momentum(s);
   velocities_from_momentum(s, Touch::in_sums, s.time - 0.5 * s.last_time_step);
   if (!deform(s, dt, &Particles::motion)) return StepOutcome::rejected;
-  particles_to_grid(s, Carry::motion_and_force);
+  particles_to_grid(s, Carry::motion_and_force, dt);
   share_momentum(s);
   const NodeResult nodes = accelerate(s, dt_velocity);
   broadcast_motion(s.grid, *s.domain);

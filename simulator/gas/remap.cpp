@@ -19,23 +19,20 @@ struct Donor {
 };
 
 /// Takes slopes of the velocity back where parting the cell would take more kinetic energy than there is heat: the parts of a
-/// cell move with different velocities, and their kinetic energies together exceed that of the whole. What a part of the cell
-/// pays for that is its mass times the square of the slope over 8 at most, and it may be as cold as the coldest neighbour.
+/// cell move with different velocities, and their kinetic energies together exceed that of the whole. Each part pays for that
+/// with its mass times the square of the slope over 8 at most.
 template <int D>
-LanesMask flatten(Donor<D>& d, const Lanes& least_energy) {
+LanesMask flatten(Donor<D>& d) {
   Lanes square(0.0);
   for (int a = 0; a < D; ++a) square += d.velocity_slope[a] * d.velocity_slope[a];
-  constexpr double most = 4.0;  // of the slope's square over the specific energy
-  const Lanes allowed = most * max(least_energy, Lanes(0.0)), wanted = square * d.density;
+  constexpr double most = 4.0;  // of the slope's square over the specific energy, of which half stays: see energy_leaving
+  const Lanes allowed = most * max(d.energy, Lanes(0.0)), wanted = square * d.density;
   const LanesMask too_steep = wanted > allowed;
   if (any(too_steep)) {
     const Lanes part = select(too_steep, sqrt(allowed / max(wanted, Lanes(1e-300))), Lanes(1.0));
     for (int a = 0; a < D; ++a) d.velocity_slope[a] = part * d.velocity_slope[a];
   }
   return too_steep;
-}
-Lanes least_around(const Pencil& field, std::size_t c) {
-  return min(min(field[c - 1], field[c + 1]), field[c]);
 }
 
 /// The flow through one face: which of its two cells gives, and what part of it.
@@ -47,6 +44,11 @@ struct Giving {
   Lanes of(const Pencil& field) const { return select(up, field[low], field[high]); }
   /// Mean of a field over what leaves.
   Lanes leaving(const Pencil& field) const { return of(field) + 0.5 * (1.0 - part) * difference(field, part); }
+  /// The same of the internal energy: what stays keeps half of its density at least.
+  Lanes energy_leaving(const Pencil& field) const {
+    const Lanes most = max(of(field), Lanes(0.0)) / max(part, Lanes(1e-300));
+    return of(field) + 0.5 * (1.0 - part) * min(difference(field, part), most);
+  }
   /// The same of a fluid's field: only some cells have it, and what leaves is a part of its own.
   Lanes leaving(const Pencil& field, const std::array<LanesMask, reach>& present, const Lanes& own_part) const {
     const LanesMask low_side = present[low - 1] & present[low] & present[high];
@@ -111,7 +113,7 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
       d.room = room[c], d.mass = mass[c];
       d.density = density[c], d.energy = energy[c];
       for (int a = 0; a < D; ++a) d.velocity[a] = velocity[a][c], d.velocity_slope[a] = slope(velocity[a], c);
-      const LanesMask taken = flatten<D>(d, least_around(energy, c));
+      const LanesMask taken = flatten<D>(d);
       if (c >= ring && c < ring + line && any(taken))
         for (int l = 0; l < 8; ++l) result.flattened += taken[l] ? 1 : 0;
     }
@@ -121,7 +123,7 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
       const Giving giving = giving_at(swept[f], room, f);
       const Lanes leaving = swept[f] * giving.leaving(density);
       dm[f] = leaving;
-      dE[f] = swept[f] * giving.leaving(energy) + carry_momentum<D>(giving, donors, leaving, f, dp);
+      dE[f] = swept[f] * giving.energy_leaving(energy) + carry_momentum<D>(giving, donors, leaving, f, dp);
     }
     for (std::size_t f = 0; f < line; ++f) {
       const std::size_t c = ring + f;
@@ -185,7 +187,7 @@ SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
       Donor<D>& d = donors[c];
       d.room = room[c], d.mass = mass[c], d.density = mass[c] / room[c], d.energy = energy[c];
       for (int a = 0; a < D; ++a) d.velocity[a] = velocity[a][c], d.velocity_slope[a] = slope(velocity[a], c);
-      const LanesMask taken = flatten<D>(d, least_around(energy, c));
+      const LanesMask taken = flatten<D>(d);
       if (c >= ring && c < ring + line && any(taken))
         for (int l = 0; l < 8; ++l) result.flattened += taken[l] ? 1 : 0;
     }

@@ -141,7 +141,7 @@ void write_grid_snapshot(const std::filesystem::path& directory, const std::stri
 
 ImageData solid_image(Simulation& s) {
   activate_blocks(s);
-  particles_to_grid(s, Carry::motion_and_force);
+  particles_to_grid(s, Carry::motion_and_force, 0.0);
   gather_tiles(s.grid, *s.domain);
   sum_tiles(s.grid);
   velocities_from_momentum(s, Touch::in_sums, s.time - 0.5 * s.last_time_step);

@@ -13,6 +13,7 @@
 #include "models/visit.hpp"
 #include "simulator/domain/message.hpp"
 #include "simulator/parallel.hpp"
+#include "simulator/solid/worst_particle.hpp"
 #include "simulator/table.hpp"
 
 namespace brisance::simulator {
@@ -162,22 +163,6 @@ struct Failing {
   std::uint64_t id = ~std::uint64_t{0};
 };
 
-/// A particle's facts, for messages.
-template <int D>
-std::string facts(const Simulation& s, const Body& body, int particle) {
-  using L = Layout<D>;
-  const Particles& ps = body.particles;
-  const double* rest = ps.rest.particle(particle);
-  std::string place;
-  for (int a = 0; a < D; ++a) place += fmt::format("{}{:.6g}", a ? ", " : "", ps.motion.at(a, particle));
-  return fmt::format(
-      "{}: particle {} at ({}) m, step {}, time {:.6g} s: temperature {:.5g} K, plastic strain {:.4g}, plastic "
-      "strain rate {:.4g} /s, density {:.6g} kg/m^3",
-      body.name, ps.id[static_cast<std::size_t>(particle)], place, s.step, s.time, rest[L::Rest::temperature * chunk_size],
-      rest[L::Rest::plastic_strain * chunk_size], rest[L::Rest::plastic_strain_rate * chunk_size],
-      ps.load.at(L::Load::density, particle));
-}
-
 /// What an update overwrites, of the particles of one chunk.
 struct ChunkState {
   std::vector<double> load, rest;
@@ -309,7 +294,7 @@ void advance_all(Simulation& s, double dt, ColumnSet Particles::*velocities) {
         std::min_element(failing.begin(), failing.end(), [](const Failing& a, const Failing& b) { return a.id < b.id; });
     if (worst != failing.end() && worst->trouble != Trouble::none)
       throw std::runtime_error(fmt::format("{}; {}; neither a whole step of {:.4g} s nor {} parts of it go well",
-                                           facts<D>(s, body, worst->particle), describe(worst->trouble), dt, most_parts));
+                                           facts(s, body, worst->particle), describe(worst->trouble), dt, most_parts));
   }
   s.extremes = over_all_ranks(*s.domain, all);
 }
@@ -360,22 +345,13 @@ template <int D>
 std::string worst_point(const Simulation& s, double dt) {
   const Body* body = nullptr;
   int particle = 0;
-  double fullest = 1.0, largest_square = 0.0;
+  double fullest = 1.0;
   for_each_filling<D>(s, dt, [&](const Body& b, int chunk, const Lanes& filling_of) {
-    const Tensor<Lanes> L = read_tensor<D>(b.particles.gradient.chunk(chunk));
-    const Lanes square = double_dot(L, L);
-    for (int i = 0; i < std::min(chunk_size, b.particles.size - chunk * chunk_size); ++i) {
-      const bool fuller = filling_of[i] > fullest, faster = fullest == 1.0 && !(square[i] <= largest_square);
-      if (!fuller && !faster) continue;
-      if (fuller) fullest = filling_of[i];
-      largest_square = square[i], body = &b, particle = chunk * chunk_size + i;
-    }
+    for (int i = 0; i < std::min(chunk_size, b.particles.size - chunk * chunk_size); ++i)
+      if (filling_of[i] > fullest) fullest = filling_of[i], body = &b, particle = chunk * chunk_size + i;
   });
-  if (!body) return "";
-  const std::string what =
-      fullest > 1.0 ? "its density would leave the range of the equation of state" : "it would be deformed too much";
-  return fmt::format("{}; {}: the velocity gradient there is {:.4g} /s", facts<D>(s, *body, particle), what,
-                     std::sqrt(largest_square));
+  if (!body) return fastest_deforming(s) + ": it would be deformed too much";
+  return facts(s, *body, particle) + ": its density would leave the range of the equation of state";
 }
 
 /// Heat (J/kg) between two temperatures (K), at a density (kg/m^3) where the equation of state has to tell.

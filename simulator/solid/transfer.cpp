@@ -222,13 +222,16 @@ void for_each_load(const Simulation& s, const Body& body, const Bin& bin, const 
     }
 }
 
-/// The particles that reach a wall: the half axis of their deformed shape is not less than their distance.
+/// The particles that reach a wall within a step of dt (s): the half axis of their deformed shape is not less than their
+/// distance at the end. One that is flat and fast would otherwise be beyond the wall before it has touched it.
 template <int D>
 LanesMask reaching(const Simulation& s, const Body& body, const Eight& eight, const std::array<Lanes, D>& position,
-                   const Lanes& half_width, const Boundary& wall) {
+                   const std::array<Lanes, D>& velocity, double dt, const Lanes& half_width, const Boundary& wall) {
   using L = Layout<D>;
   const double h = s.grid.cell_size;
-  const Lanes distance = (position[static_cast<std::size_t>(wall.axis)] - wall.position) * wall.inward;
+  const auto axis = static_cast<std::size_t>(wall.axis);
+  const Lanes approach = dt * max(Lanes(-velocity[axis] * wall.inward), Lanes(0.0));
+  const Lanes distance = (position[axis] - wall.position) * wall.inward - approach;
   const LanesMask near = distance <= 2.0 * h;
   if (none(near)) return near;
   const Columns rest(body.particles.rest, eight);
@@ -244,12 +247,13 @@ LanesMask reaching(const Simulation& s, const Body& body, const Eight& eight, co
 /// Tells the nodes on the planes of the rigid walls that particles reach that they do.
 template <int D, class FieldOf>
 void touch_walls(const Simulation& s, const Body& body, const Eight& eight, const std::array<Lanes, D>& position,
-                 const Lanes& half_width, const Weights<D>& w, const BlockPosition& block, const FieldOf& to) {
+                 const std::array<Lanes, D>& velocity, double dt, const Lanes& half_width, const Weights<D>& w,
+                 const BlockPosition& block, const FieldOf& to) {
   using B = Block<D>;
   for (const Boundary& wall : s.boundaries) {
     if (wall.kind != BoundaryKind::rigid_wall) continue;
     const auto axis = static_cast<std::size_t>(wall.axis);
-    const LanesMask reached = reaching<D>(s, body, eight, position, half_width, wall);
+    const LanesMask reached = reaching<D>(s, body, eight, position, velocity, dt, half_width, wall);
     if (none(reached)) continue;
     for (std::size_t p = 0; p < static_cast<std::size_t>(eight.used); ++p) {
       if (!reached[static_cast<int>(p)]) continue;
@@ -271,8 +275,53 @@ void touch_walls(const Simulation& s, const Body& body, const Eight& eight, cons
   }
 }
 
+/// A plane with ghosts as a tile sees it: the ghosts are among the nodes of a particle whose nearest node is on the plane.
+struct GhostPlane {
+  std::size_t axis;
+  int plane, inward;  // plane: local index, as the base of a stencil
+  bool mirror;
+};
+template <int D>
+std::vector<GhostPlane> ghost_planes(const Simulation& s, BlockKey block) {
+  std::vector<GhostPlane> planes;
+  for (const Boundary& b : s.boundaries)
+    if (const int plane = b.has_ghosts() ? local_plane<D>(b, block) : -1; plane >= 0)
+      planes.push_back({static_cast<std::size_t>(b.axis), plane, b.inward, b.is_mirror()});
+  return planes;
+}
+
+/// Lever arms that, folded, are those of the folded weights, N (x_i - x): then a particle's affine motion arrives at the nodes
+/// as the linear field that it is. With the arms of the ghosts, a particle at distance y from the plane would leave the node
+/// inside with the velocity v + C h^2/(4 y), whatever the step: near the plane its gradient would grow from step to step.
+void reach_inside(const std::vector<GhostPlane>& planes, double h, Weights& w) {
+  for (const GhostPlane& p : planes) {
+    if (p.mirror || w.base[p.axis] != p.plane) continue;  // what a mirror adds is the motion of the mirrored particle
+    const auto ghost = static_cast<std::size_t>(1 - p.inward), inside = static_cast<std::size_t>(1 + p.inward);
+    const double moved = w.value[ghost][p.axis] * p.inward * h;
+    w.lever[ghost][p.axis] += moved, w.lever[inside][p.axis] -= moved;
+  }
+}
+
+/// Sum of the squares of a particle's folded weights: what it sees of a field that it alone has made with mass one.
+template <int D>
+double own_weight(const std::vector<GhostPlane>& planes, const Weights& w) {
+  double product = 1.0;
+  for (std::size_t a = 0; a < D; ++a) {
+    std::array<double, 3> N{w.value[0][a], w.value[1][a], w.value[2][a]};
+    for (const GhostPlane& p : planes) {
+      if (p.axis != a || w.base[a] != p.plane) continue;
+      double& ghost = N[static_cast<std::size_t>(1 - p.inward)];
+      N[1] += p.mirror ? 0.0 : 2.0 * ghost;
+      N[static_cast<std::size_t>(1 + p.inward)] += p.mirror ? ghost : -ghost;
+      ghost = 0.0;
+    }
+    product *= N[0] * N[0] + N[1] * N[1] + N[2] * N[2];
+  }
+  return product;
+}
+
 template <Geometry G, Basis basis>
-void to_tile(Simulation& s, const TileView& tile, Carry carry) {
+void to_tile(Simulation& s, const TileView& tile, Carry carry, double dt) {
   constexpr int D = dimensions_of<G>;
   using L = Layout<D>;
   const double h = s.grid.cell_size;
@@ -282,6 +331,7 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
                                  [](const Boundary& b) { return b.kind == BoundaryKind::rigid_wall; });
   const bool has_field_force = s.body_force || dot(s.gravity, s.gravity) > 0.0;
   const Lanes momentum_channels = pack(0, 1, 1, 1, 0, 0, 0, 0), force_channels = pack(0, 0, 0, 0, 1, 1, 1, 0);
+  const std::vector<GhostPlane> planes = ghost_planes<D>(s, tile.key);
   Lanes* nodes = s.grid.tile(tile.number, 0);
   std::fill_n(nodes, s.grid.fields * Block<D>::tile_nodes, Lanes(0.0));
   for_each_share(s, tile, [&](std::size_t, const Body& body, const Bin& bin) {
@@ -290,9 +340,10 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
     if (force) pressures = cell_pressures<D>(body, bin, tile.position, h);
     for_each_eight(body.bins, bin, {{ps.motion, 0, L::Motion::count}}, [&](const Eight& eight) {
       const Columns from(ps.motion, eight), load(ps.load, eight);
-      const auto x = read_vector<D>(from, L::Motion::position);
+      const auto x = read_vector<D>(from, L::Motion::position), v = read_vector<D>(from, L::Motion::velocity);
       const Lanes m = load[L::Load::mass], half_width = load[L::Load::half_width];
-      const Weights<D> w = find_weights<G, basis>(x, half_width, tile.position, h);
+      Weights<D> w = find_weights<G, basis>(x, half_width, tile.position, h);
+      reach_inside(planes, h, w);
 
       // By channel: what is carried by S, and what by its slope along each direction, affine momentum m C and stress -V sigma.
       Square value;
@@ -301,7 +352,7 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
       value.fill(Lanes(0.0));
       for (Square& along : slope) along.fill(Lanes(0.0));
       value[Channel::mass] = m;
-      for (int a = 0; a < D; ++a) value[Channel::momentum + a] = m * from[L::Motion::velocity + a];
+      for (int a = 0; a < D; ++a) value[Channel::momentum + a] = m * v[static_cast<std::size_t>(a)];
       if (affine)
         for (int a = 0; a < D; ++a)
           for (int b = 0; b < D; ++b) slope[b][Channel::momentum + a] = m * from[L::Motion::affine + D * a + b];
@@ -333,7 +384,7 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry) {
         }
         scatter<D>(w, i, value[i], along, to(i));
       }
-      if (walls) touch_walls<D>(s, body, eight, x, half_width, w, tile.position, to);
+      if (walls) touch_walls<D>(s, body, eight, x, v, dt, half_width, w, tile.position, to);
     });
     if (force)
       for_each_load<G, basis>(s, body, bin, tile.position,
@@ -416,6 +467,9 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
   const double filter_time = s.numerics.filter_time * h / s.extremes.wave_speed;
   const double beta = aflip ? -std::expm1(-step.dt / filter_time) : 0.0;
   const bool external = s.has_external_forces();
+  constexpr double anothers_mass = 1e-3;  // relative to its own, that a particle alone may see
+  const double kept_alone = std::exp(-step.dt * s.extremes.wave_speed / h);
+  const std::vector<GhostPlane> planes = ghost_planes<D>(s, tile.key);
   std::vector<Lanes> motion = motion_of<D>(s, tile);
   Lanes* remapped = s.grid.tile(tile.number, 0);
   if (step.remap) std::fill_n(remapped, motion.size(), Lanes(0.0));
@@ -426,76 +480,82 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
     Particles& ps = body.particles;
     CellMeans<D> pressures;
     if (external) pressures = cell_pressures<D>(body, bin, tile.position, h);
-    for_each_eight(body.bins, bin,
-                   {{ps.motion, L::Motion::position, 2 * D},
-                    {ps.load, L::Load::mass, 1},
-                    {ps.load, L::Load::half_width, 1},
-                    {ps.next_motion, 0, L::Motion::count}},
-                   [&](const Eight& eight) {
-                     const Columns from(ps.motion, eight), load(ps.load, eight);
-                     Columns to(ps.next_motion, eight);
-                     const Vec x = read_vector<D>(from, L::Motion::position), v = read_vector<D>(from, L::Motion::velocity);
-                     const Lanes m = load[L::Load::mass];
-                     const Weights<D> w = find_weights<G, basis>(x, load[L::Load::half_width], tile.position, h);
-                     const GatheredByChannel<D> grid = gather<Slope::lever, false>(w, nodes_of<D>(body, eight, motion.data()));
+    for_each_eight(
+        body.bins, bin,
+        {{ps.motion, L::Motion::position, 2 * D},
+         {ps.load, L::Load::mass, 1},
+         {ps.load, L::Load::half_width, 1},
+         {ps.next_motion, 0, L::Motion::count}},
+        [&](const Eight& eight) {
+          const Columns from(ps.motion, eight), load(ps.load, eight);
+          Columns to(ps.next_motion, eight);
+          const Vec x = read_vector<D>(from, L::Motion::position), v = read_vector<D>(from, L::Motion::velocity);
+          const Lanes m = load[L::Load::mass];
+          Weights<D> w = find_weights<G, basis>(x, load[L::Load::half_width], tile.position, h);
+          const GatheredByChannel<D> grid = gather<Slope::lever, false>(w, nodes_of<D>(body, eight, motion.data()));
 
-                     Vec v_new, x_new;
-                     Vec by_grid, by_filter, in_all, mean_by_grid, mean_by_filter, mean_in_all,
-                         way;  // impulses, mean velocities
-                     const Lanes booked = eight.only_used(m);
-                     for (int a = 0; a < D; ++a) {
-                       const Lanes v_grid = grid.value[Channel::velocity + a], dv = grid.value[Channel::change + a];
-                       const Lanes v_flip = v[a] + dv, filtered = beta * (v_grid - v_flip);
-                       v_new[a] = v_flip + filtered;
-                       x_new[a] = x[a] + step.dt * v_grid;
-                       to.write(L::Motion::position + a, x_new[a]), to.write(L::Motion::velocity + a, v_new[a]);
-                       by_grid[a] = booked * dv, mean_by_grid[a] = v[a] + 0.5 * dv;
-                       by_filter[a] = booked * filtered, mean_by_filter[a] = v_flip + 0.5 * filtered;
-                       in_all[a] = booked * v_new[a], mean_in_all[a] = 0.5 * v_new[a];
-                       way[a] = x_new[a] - x[a];
-                     }
-                     flip.add(by_grid, x, mean_by_grid), filter.add(by_filter, x, mean_by_filter);
-                     state.add(in_all, x_new, mean_in_all), advection.add(in_all, way, Vec{});
-                     std::array<Square, D> affine_momentum;
-                     for (Square& along : affine_momentum) along.fill(Lanes(0.0));
-                     for (int b = 0; b < D; ++b)
-                       for (int a = 0; a < D; ++a) {
-                         const Lanes C = aflip ? Lanes(grid.slope[b][Channel::velocity + a]) / w.along[b].spread : Lanes(0.0);
-                         to.write(L::Motion::affine + D * a + b, C);
-                         affine_momentum[b][Channel::momentum + a] = m * C;
-                       }
+          Vec v_new, x_new;
+          Vec by_grid, by_filter, in_all, mean_by_grid, mean_by_filter, mean_in_all,
+              way;  // impulses, mean velocities
+          const Lanes booked = eight.only_used(m);
+          for (int a = 0; a < D; ++a) {
+            const Lanes v_grid = grid.value[Channel::velocity + a], dv = grid.value[Channel::change + a];
+            const Lanes v_flip = v[a] + dv, filtered = beta * (v_grid - v_flip);
+            v_new[a] = v_flip + filtered;
+            x_new[a] = x[a] + step.dt * v_grid;
+            to.write(L::Motion::position + a, x_new[a]), to.write(L::Motion::velocity + a, v_new[a]);
+            by_grid[a] = booked * dv, mean_by_grid[a] = v[a] + 0.5 * dv;
+            by_filter[a] = booked * filtered, mean_by_filter[a] = v_flip + 0.5 * filtered;
+            in_all[a] = booked * v_new[a], mean_in_all[a] = 0.5 * v_new[a];
+            way[a] = x_new[a] - x[a];
+          }
+          flip.add(by_grid, x, mean_by_grid), filter.add(by_filter, x, mean_by_filter);
+          state.add(in_all, x_new, mean_in_all), advection.add(in_all, way, Vec{});
+          // A particle that has its nodes to itself learns nothing about a velocity gradient from them: it would get
+          // back the one that it gave, for ever, and a melt would stretch exponentially. A fragment comes to rest in
+          // itself while sound crosses it.
+          const LanesMask alone = Lanes(grid.value[Channel::mass]) <= (1.0 + anothers_mass) * m * own_weights<D>(planes, w);
+          const Lanes kept = select(alone, Lanes(kept_alone), Lanes(1.0));
+          std::array<Square, D> affine_momentum;
+          for (Square& along : affine_momentum) along.fill(Lanes(0.0));
+          for (int b = 0; b < D; ++b)
+            for (int a = 0; a < D; ++a) {
+              const Lanes C = aflip ? kept * Lanes(grid.slope[b][Channel::velocity + a]) / w.along[b].spread : Lanes(0.0);
+              to.write(L::Motion::affine + D * a + b, C);
+              affine_momentum[b][Channel::momentum + a] = m * C;
+            }
 
-                     if (external) {
-                       const Vec g = acceleration_fields(s, x);
-                       Vec impulse, mean;
-                       for (int a = 0; a < D; ++a) {
-                         impulse[a] = step.dt_velocity * booked * g[a];
-                         mean[a] = Lanes(grid.value[Channel::velocity + a]) - 0.5 * Lanes(grid.value[Channel::change + a]);
-                       }
-                       field_forces.add(impulse, x, mean);
-                       const auto slopes = gather<Slope::gradient, ring>(w, nodes_of<D>(body, eight, motion.data()));
-                       internal -= step.dt_velocity * booked / load[L::Load::density] *
-                                   stress_power<G>(pushing_stress<D>(body, load, pressures, w), slopes);
-                     }
+          if (external) {
+            const Vec g = acceleration_fields(s, x);
+            Vec impulse, mean;
+            for (int a = 0; a < D; ++a) {
+              impulse[a] = step.dt_velocity * booked * g[a];
+              mean[a] = Lanes(grid.value[Channel::velocity + a]) - 0.5 * Lanes(grid.value[Channel::change + a]);
+            }
+            field_forces.add(impulse, x, mean);
+            const auto slopes = gather<Slope::gradient, ring>(w, nodes_of<D>(body, eight, motion.data()));
+            internal -= step.dt_velocity * booked / load[L::Load::density] *
+                        stress_power<G>(pushing_stress<D>(body, load, pressures, w), slopes);
+          }
 
-                     if (step.remap) {
-                       Square momentum;
-                       momentum.fill(Lanes(0.0));
-                       momentum[Channel::mass] = m;
-                       for (int a = 0; a < D; ++a) momentum[Channel::momentum + a] = m * v_new[a];
-                       momentum = transposed(momentum);
-                       for (Square& along : affine_momentum) along = transposed(along);
-                       const auto nodes = nodes_of<D>(body, eight, remapped);
-                       for (std::size_t i = 0; i < static_cast<std::size_t>(eight.used); ++i) {
-                         Slopes<D> slope;
-                         for (std::size_t a = 0; a < D; ++a)
-                           for (std::size_t k = 0; k < 3; ++k)
-                             slope[a][k] = Lanes(w.along[a].lever[k][i]) * affine_momentum[a][i];
-                         scatter<D>(w, i, momentum[i], slope, nodes(i));
-                       }
-                     }
-                     list_leavers<D>(s, eight, x_new, tile.position, moved[number], left[number]);
-                   });
+          if (step.remap) {
+            reach_inside(planes, h, w);
+            Square momentum;
+            momentum.fill(Lanes(0.0));
+            momentum[Channel::mass] = m;
+            for (int a = 0; a < D; ++a) momentum[Channel::momentum + a] = m * v_new[a];
+            momentum = transposed(momentum);
+            for (Square& along : affine_momentum) along = transposed(along);
+            const auto nodes = nodes_of<D>(body, eight, remapped);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(eight.used); ++i) {
+              Slopes<D> slope;
+              for (std::size_t a = 0; a < D; ++a)
+                for (std::size_t k = 0; k < 3; ++k) slope[a][k] = Lanes(w.along[a].lever[k][i]) * affine_momentum[a][i];
+              scatter<D>(w, i, momentum[i], slope, nodes(i));
+            }
+          }
+          list_leavers<D>(s, eight, x_new, tile.position, moved[number], left[number]);
+        });
     if (external)
       for_each_load<G, basis>(
           s, body, bin, tile.position, [&](const LoadedPoint& point, const Weights<D>& w, const Eight& one) {
@@ -580,10 +640,10 @@ Vector acceleration_field(const Simulation& s, const Vector& position) {
   return s.body_force ? s.gravity + s.body_force(position, s.time) : s.gravity;
 }
 
-void particles_to_grid(Simulation& s, Carry carry) {
+void particles_to_grid(Simulation& s, Carry carry, double dt) {
   const Timed timed(s.times, Phase::particles_to_grid);
   with_kernel(s, [&]<Geometry G, Basis basis>() {
-    parallel_for_blocks(s.grid.my_tiles.size(), [&](std::size_t i) { to_tile<G, basis>(s, view(s.grid, i), carry); });
+    parallel_for_blocks(s.grid.my_tiles.size(), [&](std::size_t i) { to_tile<G, basis>(s, view(s.grid, i), carry, dt); });
   });
 }
 

@@ -9,8 +9,9 @@ namespace brisance::simulator {
 /// What particles add to the grid.
 enum class Carry { motion_and_force, motion };
 
-/// Mass, momentum and forces of the particles to the tiles, ghosts folded.
-void particles_to_grid(Simulation& s, Carry carry);
+/// Mass, momentum and forces of the particles to the tiles, ghosts folded, and which particles touch a wall in the coming step
+/// of dt (s).
+void particles_to_grid(Simulation& s, Carry carry, double dt);
 
 /// What the grid gives back.
 struct ParticleStep {

@@ -190,6 +190,7 @@ void set_grid_velocity(Simulation& s, const std::function<Vector(const Vector&)>
       const Vector v = velocity_at(x);
       for (int field = 0; field < s.grid.fields; ++field) {
         Lanes node(0.0);
+        node.set(Channel::mass, 1e3);  // of many particles
         for (int a = 0; a < D; ++a) node.set(Channel::velocity + a, v[static_cast<std::size_t>(a)]);
         s.grid.block_motion(b, field)[n] = node;
       }

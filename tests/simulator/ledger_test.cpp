@@ -97,7 +97,7 @@ void step_by_hand(Simulation& s, const Mutation& forget = {}, int work_forgotten
   const double dt = by_hand::stable_step(s, 1.0, 0.3), dt_velocity = 0.5 * (dt + s.last_time_step);
   const auto share = [&] { gather_tiles(s.grid, *s.domain), sum_tiles(s.grid); };
   activate_blocks(s);
-  particles_to_grid(s, Carry::motion_and_force);
+  particles_to_grid(s, Carry::motion_and_force, dt);
   share();
   NodeResult nodes = accelerate(s, dt_velocity);
   ParticleResult particles = grid_to_particles(s, {dt, dt_velocity, true});

@@ -14,6 +14,7 @@
 #include "models/input/toml_tree.hpp"
 #include "models/programs/files.hpp"
 #include "simulator/case_reader.hpp"
+#include "simulator/output/checkpoint.hpp"
 #include "simulator/output/fields.hpp"
 #include "simulator/output/figures.hpp"
 #include "simulator/output/grid_snapshot.hpp"
@@ -594,6 +595,25 @@ TEST(Run, ATimeStepBelowTheLeastOneStopsIt) {
   EXPECT_EQ(result.ending, Ending::failed);
   EXPECT_NE(result.message.find("less than 5e-07 s"), std::string::npos) << result.message;
   EXPECT_NE(result.message.find("the speed of waves"), std::string::npos) << result.message;
+}
+
+TEST(Run, AStepThatCannotBeTakenNamesTheParticleAndLeavesTheLastGoodState) {
+  const fs::path directory = scratch();
+  const Case c = small_case(directory, "[output]\nfigures = false\n");
+  Simulation s = set_up(c);
+  constexpr int spoilt = 100;
+  Particles& ps = s.bodies[0].particles;
+  const std::string name = "particle " + std::to_string(ps.id[spoilt]) + " of bar at (";
+  ps.load.at(Layout<2>::Load::stress, spoilt) = std::numeric_limits<double>::quiet_NaN();
+  prepare_directory(directory / "run", c, false);
+  const RunResult result = run(c, s, {directory / "run", {}});
+  EXPECT_EQ(result.ending, Ending::failed);
+  EXPECT_EQ(s.step, 0) << "a state that is not a number is never accepted";
+  for (const char* fact : {"rejected 21 times", "|L| is inf", name.c_str(), "temperature 298", "plastic strain 0", "kg/m^3"})
+    EXPECT_NE(result.message.find(fact), std::string::npos) << fact << " in " << result.message;
+  EXPECT_TRUE(has_checkpoint(directory / "run"));
+  EXPECT_NE(result.message.find("last checkpoint: "), std::string::npos) << result.message;
+  EXPECT_TRUE(fs::exists(directory / "run" / "bar_particles_000000.hdf"));
 }
 
 TEST(StepSize, IsThePartOfACellThatAWaveTakes) {

@@ -73,9 +73,9 @@ struct Carried {
     mass_size += std::abs(m), momentum_size += magnitude(p);
   }
 };
-template <int D>
-Carried on_grid(const Simulation& s, int field) {
-  Carried sum;
+/// Calls f(position, mass, momentum) for the nodes of a field.
+template <int D, class F>
+void for_each_node(const Simulation& s, int field, F&& f) {
   Grid& grid = const_cast<Simulation&>(s).grid;
   for (std::size_t b = 0; b < grid.blocks.size(); ++b)
     for (int n = 0; n < Block<D>::nodes; ++n) {
@@ -88,12 +88,18 @@ Carried on_grid(const Simulation& s, int field) {
         const auto k = static_cast<std::size_t>(a);
         x[k] = h * (block[k] * side + local[a]), p[k] = node[Channel::momentum + a];
       }
-      sum.add(node[Channel::mass], p, x);
+      f(x, node[Channel::mass], p);
     }
-  return sum;
+}
+template <class F>
+void for_each_node(const Simulation& s, F&& f, int field = 0) {
+  s.dimensions() == 3 ? for_each_node<3>(s, field, f) : for_each_node<2>(s, field, f);
 }
 Carried on_grid(const Simulation& s, int field = 0) {
-  return s.dimensions() == 3 ? on_grid<3>(s, field) : on_grid<2>(s, field);
+  Carried sum;
+  for_each_node(
+      s, [&](const Vector& x, double m, const Vector& p) { sum.add(m, p, x); }, field);
+  return sum;
 }
 Carried on_particles(const Simulation& s) {
   Carried sum;
@@ -106,7 +112,7 @@ Carried on_particles(const Simulation& s) {
 }
 void to_grid(Simulation& s, Carry carry = Carry::motion) {
   activate_blocks(s);
-  particles_to_grid(s, carry);
+  particles_to_grid(s, carry, 0.0);
   gather_tiles(s.grid, *s.domain);
   sum_tiles(s.grid);
 }
@@ -217,8 +223,6 @@ TEST(ParticlesToGrid, MaskOfZeroGivesTheBitsOfNoMask) {
     }
 }
 
-// Back --------------------------------------------------------------------------------------------------------------------
-
 /// v = v0 + L x
 struct LinearField {
   Vector v0{0.3, -0.7, 0.2};
@@ -233,6 +237,44 @@ struct LinearField {
     return v;
   }
 };
+
+TEST(ParticlesToGrid, GiveALinearFieldToTheNodesBesideAPlane) {
+  const LinearField field;
+  for (const Geometry g : geometries)
+    for (const Basis basis : bases)
+      for (const int inward : {1, -1}) {
+        if (g == Geometry::axisymmetric && basis == Basis::ugimp) continue;  // carries the velocity of its ring's centroid
+        SCOPED_TRACE(name_of(g, basis));
+        Simulation s = random_particles(g, basis, ParticleVelocity::aflip, 300);
+        Boundary wall;
+        wall.kind = BoundaryKind::rigid_wall, wall.axis = 1, wall.inward = inward;
+        s.boundaries.push_back(wall);
+        const int D = s.dimensions();
+        Particles& ps = s.bodies[0].particles;
+        for (int p = 0; p < ps.size; ++p) {
+          double& y = ps.motion.at(1, p);
+          y = inward * (std::abs(y) / 4.0 + 1e-6 * h);  // many within half a cell of the plane
+          const Vector v = field(by_hand::position(ps, p), D);
+          for (int a = 0; a < D; ++a) {
+            ps.motion.at(D + a, p) = v[static_cast<std::size_t>(a)];
+            for (int b = 0; b < D; ++b) ps.motion.at(2 * D + D * a + b, p) = field.L[a][b];
+          }
+        }
+        begin(s);
+        to_grid(s);
+        int nodes = 0;
+        for_each_node(s, [&](const Vector& x, double m, const Vector& momentum) {
+          if (m == 0.0) return;
+          ++nodes;
+          const Vector v = field(x, D);
+          const double mass_of_a_cell = density * std::pow(h, D);
+          for (std::size_t a = 0; a < 3; ++a) ASSERT_NEAR(momentum[a], m * v[a], round_off * 10.0 * mass_of_a_cell);
+        });
+        EXPECT_GT(nodes, 50);
+      }
+}
+
+// Back --------------------------------------------------------------------------------------------------------------------
 
 /// Where the mass of a ring of uniform density between r - l and r + l has its centre: uGIMP gives the velocity there.
 double centre_of_ring(double r, double l) {
@@ -274,6 +316,42 @@ TEST(GridToParticles, ReproducesLinearFields) {
         }
       }
     }
+}
+
+TEST(GridToParticles, BringAParticleAloneToRestInItselfInTheTimeOfSound) {
+  // Anywhere, and beside a wall and a mirror.
+  for (const Geometry g : {Geometry::plane, Geometry::three_dimensional})
+    for (const BoundaryKind kind : {BoundaryKind::outflow, BoundaryKind::rigid_wall, BoundaryKind::symmetry})
+      for (const double y : {0.05, 0.3, 0.49, 0.51, 1.2})
+        for (const double apart : {10.0, 1.0}) {
+          Simulation s = random_particles(g, Basis::quadratic_spline, ParticleVelocity::aflip, 2);
+          const int D = s.dimensions();
+          Boundary plane;
+          plane.kind = kind, plane.axis = 1, plane.position = kind == BoundaryKind::outflow ? -10.0 : 0.0;
+          s.boundaries.push_back(plane);
+          s.bodies[0].stress = [](Body&, int) {};  // none
+          Particles& ps = s.bodies[0].particles;
+          constexpr double C = 10.0, v = 20.0;  // 1/s, m/s
+          for (int p = 0; p < 2; ++p) {         // both in the field v + C x
+            const double place = (0.3 + apart * p) * h;
+            ps.motion.at(0, p) = place, ps.motion.at(1, p) = y * h;
+            for (int k = 0; k < D + D * D; ++k) ps.motion.at(D + k, p) = 0.0;
+            ps.motion.at(D, p) = v + C * place, ps.motion.at(2 * D, p) = C;
+            if (D == 3) ps.motion.at(2, p) = 0.0;
+          }
+          begin(s);
+          const std::array<double, 2> x{ps.motion.at(0, 0), ps.motion.at(0, 1)};
+          constexpr double dt = 1e-4;
+          const double kept = apart > 3.0 ? std::exp(-dt * s.extremes.wave_speed / h) : 1.0;
+          ASSERT_LT(std::exp(-dt * s.extremes.wave_speed / h), 0.99);
+          ASSERT_EQ(advance(s, dt), StepOutcome::done);
+          for (int p = 0; p < 2; ++p) {
+            SCOPED_TRACE("y = " + std::to_string(y) + ", " + std::to_string(apart) + " cells apart");
+            EXPECT_NEAR(ps.motion.at(D, p), v + C * x[static_cast<std::size_t>(p)], 1e-10);
+            EXPECT_NEAR(ps.motion.at(2 * D, p), kept * C, 1e-10) << "affine motion";
+            EXPECT_NEAR(ps.gradient.at(0, p), kept * C, 1e-10) << "velocity gradient";
+          }
+        }
 }
 
 /// v_r = a r, v_z = 0: the same stretching in both directions, on the axis as elsewhere.

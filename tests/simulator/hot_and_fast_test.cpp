@@ -1,0 +1,64 @@
+// Bars far from the speeds and temperatures of the gallery: molten at rest, and so fast that the rim flies off in particles
+// that melt and part from the others. They run to their end with closed books.
+
+#include <gtest/gtest.h>
+
+#include "tests/simulator/running.hpp"
+#include "tests/simulator/small_bar.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+TEST(MoltenBar, AtRestStaysAtRestAndKeepsItsBits) {
+  for (const char* metal : {"steel_4340.toml", "copper_ofhc_johnson_cook.toml", "copper_ofhc_mts.toml", "tungsten.toml"}) {
+    SCOPED_TRACE(metal);
+    Simulation s = set_up(shipped_case("taylor_4340_208_johnson_cook",
+                                       {"cell_size=1.27 mm", "solid.0.velocity=[0,0]", "solid.0.temperature=4000 K",
+                                        std::string("solid.0.material=../materials/") + metal}));
+    run_until(s, 1e-6);  // what round-off has left of the pressure moves it in the first steps
+    const Particles& ps = s.bodies[0].particles;
+    std::vector<double> temperature, density, plastic_strain;
+    for (int p = 0; p < ps.size; ++p) {
+      ASSERT_EQ(ps.rest.at(Columns::Rest::shear_modulus, p), 0.0) << "it is molten";
+      EXPECT_EQ(ps.rest.at(Columns::Rest::plastic_strain, p), 0.0);
+      EXPECT_EQ(ps.rest.at(Columns::Rest::plastic_work, p), 0.0);
+      EXPECT_EQ(ps.rest.at(Columns::Rest::temperature, p), 4000.0);
+      for (int a = 0; a < 2; ++a) {
+        constexpr double at_rest = 1e-9;  // m/s: the pressure of round-off, 1e-4 Pa, over density and cell size for 1 us
+        EXPECT_LT(std::abs(ps.motion.at(2 + a, p)), at_rest);
+      }
+    }
+  }
+}
+
+/// The mass, the highest and the lowest place, and whether every number is finite.
+struct Fast : testing::TestWithParam<std::tuple<const char*, double>> {};
+
+TEST_P(Fast, BarRunsToItsEndOnAWall) {
+  const auto [name, speed] = GetParam();
+  Simulation s = set_up(shipped_case(name, {"cell_size=1.27 mm", "solid.0.velocity=[0,-" + std::to_string(speed) + "]"}));
+  const double energy = s.ledger.initial.energy;
+  run_until(s, 40e-6);
+  expect_closed_books(s);
+  const Balance b = balance(s.ledger, internal_energy(s));
+  constexpr double of_the_numerics = 0.05;  // of the peak of the kinetic energy, on a grid of three cells in the radius
+  EXPECT_LT(std::abs(b.numerical()), of_the_numerics * energy);
+  EXPECT_LT(s.ledger.state.energy, energy);
+  const Particles& ps = s.bodies[0].particles;
+  double fastest = 0.0;
+  for (int p = 0; p < ps.size; ++p) {
+    for (const Column& c : ps.columns()) ASSERT_TRUE(std::isfinite(ps.set(c.set).at(c.index, p))) << c.name;
+    fastest = std::max({fastest, std::abs(ps.motion.at(2, p)), std::abs(ps.motion.at(3, p))});
+    EXPECT_GT(ps.motion.at(1, p), 0.0) << "no particle goes through the wall";
+  }
+  // A steady jet leaves at the speed at which it came; the first contact squirts faster.
+  EXPECT_GT(fastest, 0.1 * speed);
+  EXPECT_LT(fastest, 4.0 * speed);
+}
+
+INSTANTIATE_TEST_SUITE_P(Metals, Fast,
+                         testing::Combine(testing::Values("taylor_copper_190_mts", "taylor_4340_208_johnson_cook"),
+                                          testing::Values(500.0, 1000.0, 2000.0)));
+
+}  // namespace
+}  // namespace brisance::simulator
