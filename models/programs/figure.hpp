@@ -29,11 +29,11 @@ struct Panel {
   std::vector<Curve> curves{};
   std::optional<std::array<double, 2>> x_range{}, y_range{};
   bool logarithmic_x = false, logarithmic_y = false;
-  bool equal_axes = false;             // one unit is as long along x as along y
-  std::string scale_label{};           // of the colours of values
-  bool wide = false;                   // takes a row of its own
-  double height = 1.0;                 // of its row, in units of Figure::panel_height
-  std::string legend = "top left";     // gnuplot's words for its place
+  bool equal_axes = false;          // one unit is as long along x as along y
+  std::string scale_label{};        // of the colours of values
+  bool wide = false;                // takes a row of its own
+  double height = 1.0;              // of its row, in units of Figure::panel_height
+  std::string legend = "top left";  // gnuplot's words for its place
 };
 
 struct Figure {
