@@ -36,14 +36,15 @@ export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}  # waiting threads leave the 
 jobs=${BRISANCE_JOBS:-$(nproc)}
 build=build/$preset
 
+# build CMAKE_OPTION [TARGET]...: without targets everything
 build() {
-  cmake --preset "$preset" "${@}" -Wno-dev >"build-$preset.log" 2>&1 || { cat "build-$preset.log"; exit 1; }
+  cmake --preset "$preset" "$1" -Wno-dev >"build-$preset.log" 2>&1 || { cat "build-$preset.log"; exit 1; }
   rm -f "build-$preset.log"
-  cmake --build "$build" -j "$jobs"
+  shift
+  cmake --build "$build" -j "$jobs" ${1:+--target "$@"}
 }
 
-show() {
-  echo "figure: $1"
+show() {  # on a desktop
   if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && command -v xdg-open >/dev/null; then xdg-open "$1" >/dev/null 2>&1 || true; fi
 }
 
@@ -53,13 +54,14 @@ shift
 case $action in
   run)
     install_packages
-    build -DBRISANCE_BUILD_TESTS=OFF
+    build -DBRISANCE_BUILD_TESTS=OFF brisance
     "$build/simulator/brisance" run data/cases/taylor_copper_190_mts.toml -o out/taylor_copper_190_mts --overwrite "$@"
+    echo "figure: out/taylor_copper_190_mts/profile_bar.png"
     show out/taylor_copper_190_mts/profile_bar.png
     ;;
   point)
     install_packages
-    build -DBRISANCE_BUILD_TESTS=OFF
+    build -DBRISANCE_BUILD_TESTS=OFF pointdriver
     mkdir -p out
     "$build/driver/pointdriver" compare data/cases/point_6061_t6.toml -o out/6061_t6.csv --plot out/6061_t6.png --plot out/6061_t6.svg "$@"
     show out/6061_t6.png
@@ -71,7 +73,7 @@ case $action in
     ;;
   validate)
     install_packages
-    build -DBRISANCE_BUILD_TESTS=OFF
+    build -DBRISANCE_BUILD_TESTS=OFF gallery taylor
     case ${1:-} in
       "" | --full) "$build/plots/gallery" && "$build/plots/taylor" "$@" ;;
       --list) "$build/plots/gallery" --list && "$build/plots/taylor" --list ;;
@@ -81,7 +83,7 @@ case $action in
     ;;
   bench)
     install_packages
-    build -DBRISANCE_BUILD_TESTS=ON
+    build -DBRISANCE_BUILD_TESTS=ON bench bench_simulator
     "$build/tests/bench"
     "$build/tests/bench_simulator" "$@"
     "$build/tests/bench_gas"

@@ -84,9 +84,7 @@ std::string tic_step(const Panel& panel) {
 
 void draw_panel(Gnuplot& plot, const Panel& panel) {
   plot << "set title " << plain(panel.title) << " font ',12'\n";
-  const bool legend_below = panel.legend.starts_with("below");  // close to the label of the axis: that moves up
-  plot << "set xlabel " << quoted_text(panel.x_label) << " offset 0," << (legend_below ? "0.6" : "0") << "\nset ylabel "
-       << quoted_text(panel.y_label) << "\n";
+  plot << "set xlabel " << quoted_text(panel.x_label) << "\nset ylabel " << quoted_text(panel.y_label) << "\n";
   plot << "set xrange [*:*]\nset yrange [*:*]\n";
   if (panel.x_range) plot << fmt::format("set xrange [{}:{}]\n", (*panel.x_range)[0], (*panel.x_range)[1]);
   if (panel.y_range) plot << fmt::format("set yrange [{}:{}]\n", (*panel.y_range)[0], (*panel.y_range)[1]);
@@ -101,7 +99,9 @@ void draw_panel(Gnuplot& plot, const Panel& panel) {
   const bool legend = std::any_of(panel.curves.begin(), panel.curves.end(), [](const Curve& c) { return !c.title.empty(); });
   plot << (panel.legend_width > 0 ? fmt::format("set lmargin 10\nset rmargin {}\n", panel.legend_width)
                                   : "set lmargin\nset rmargin\n");
-  plot << (legend ? "set key default " + panel.legend + " samplen 2.2 spacing 1.1 font ',10'\n" : "unset key\n");
+  // Below the panel an empty title keeps the legend off the label of the axis.
+  const std::string apart = panel.legend.starts_with("below") ? " title ' '" : "";
+  plot << (legend ? "set key default " + panel.legend + apart + " samplen 2.2 spacing 1.1 font ',10'\n" : "unset key\n");
   plot << "plot ";
   bool first = true;
   for (const Curve& curve : panel.curves) {
