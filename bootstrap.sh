@@ -83,7 +83,7 @@ case $action in
     ;;
   bench)
     install_packages
-    build -DBRISANCE_BUILD_TESTS=ON bench bench_simulator
+    build -DBRISANCE_BUILD_TESTS=ON bench bench_simulator bench_gas
     "$build/tests/bench"
     "$build/tests/bench_simulator" "$@"
     "$build/tests/bench_gas"
