@@ -278,7 +278,7 @@ void touch_walls(const Simulation& s, const Body& body, const Eight& eight, cons
 /// A plane with ghosts as a tile sees it: the ghosts are among the nodes of a particle whose nearest node is on the plane.
 struct GhostPlane {
   std::size_t axis;
-  int plane, inward;  // plane: local index, as the base of a stencil
+  int plane, inward;  // plane: index in the block
   bool mirror;
 };
 template <int D>
@@ -293,27 +293,32 @@ std::vector<GhostPlane> ghost_planes(const Simulation& s, BlockKey block) {
 /// Lever arms that, folded, are those of the folded weights, N (x_i - x): then a particle's affine motion arrives at the nodes
 /// as the linear field that it is. With the arms of the ghosts, a particle at distance y from the plane would leave the node
 /// inside with the velocity v + C h^2/(4 y), whatever the step: near the plane its gradient would grow from step to step.
-void reach_inside(const std::vector<GhostPlane>& planes, double h, Weights& w) {
+template <std::size_t D>
+void reach_inside(const std::vector<GhostPlane>& planes, double h, Weights<D>& w) {
   for (const GhostPlane& p : planes) {
-    if (p.mirror || w.base[p.axis] != p.plane) continue;  // what a mirror adds is the motion of the mirrored particle
+    if (p.mirror) continue;  // what a mirror adds is the motion of the mirrored particle
+    const LanesMask beside = w.nearest[p.axis] == static_cast<double>(p.plane);
+    if (none(beside)) continue;
     const auto ghost = static_cast<std::size_t>(1 - p.inward), inside = static_cast<std::size_t>(1 + p.inward);
-    const double moved = w.value[ghost][p.axis] * p.inward * h;
-    w.lever[ghost][p.axis] += moved, w.lever[inside][p.axis] -= moved;
+    LineWeights& along = w.along[p.axis];
+    const Lanes moved = select(beside, (p.inward * h) * Lanes(along.value[ghost]), Lanes(0.0));
+    along.lever[ghost] = Lanes(along.lever[ghost]) + moved, along.lever[inside] = Lanes(along.lever[inside]) - moved;
   }
 }
 
-/// Sum of the squares of a particle's folded weights: what it sees of a field that it alone has made with mass one.
-template <int D>
-double own_weight(const std::vector<GhostPlane>& planes, const Weights& w) {
-  double product = 1.0;
+/// Sums of the squares of particles' folded weights: what each sees of a field that it alone has made with mass one.
+template <std::size_t D>
+Lanes own_weights(const std::vector<GhostPlane>& planes, const Weights<D>& w) {
+  Lanes product(1.0);
   for (std::size_t a = 0; a < D; ++a) {
-    std::array<double, 3> N{w.value[0][a], w.value[1][a], w.value[2][a]};
+    std::array<Lanes, 3> N{Lanes(w.along[a].value[0]), Lanes(w.along[a].value[1]), Lanes(w.along[a].value[2])};
     for (const GhostPlane& p : planes) {
-      if (p.axis != a || w.base[a] != p.plane) continue;
-      double& ghost = N[static_cast<std::size_t>(1 - p.inward)];
-      N[1] += p.mirror ? 0.0 : 2.0 * ghost;
-      N[static_cast<std::size_t>(1 + p.inward)] += p.mirror ? ghost : -ghost;
-      ghost = 0.0;
+      if (p.axis != a) continue;
+      Lanes& of_ghost = N[static_cast<std::size_t>(1 - p.inward)];
+      const Lanes ghost = select(w.nearest[a] == static_cast<double>(p.plane), of_ghost, Lanes(0.0));
+      N[1] += (p.mirror ? 0.0 : 2.0) * ghost;
+      N[static_cast<std::size_t>(1 + p.inward)] += (p.mirror ? 1.0 : -1.0) * ghost;
+      of_ghost -= ghost;
     }
     product *= N[0] * N[0] + N[1] * N[1] + N[2] * N[2];
   }
