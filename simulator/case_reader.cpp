@@ -40,6 +40,7 @@ class CaseReader : public KeyReader<CaseReader> {
   Case read(TableReader& top) {
     read_keys(top, case_);
     if (case_.title.empty()) case_.title = top.file().stem().string();
+    if (case_.gas && case_.output.figure_field == OutputConfig{}.figure_field) case_.output.figure_field = "density";
     if (case_.bodies.empty() && !case_.gas && (!top.has("solid") || top.problem_count() == 0))
       top.problem("there is no [[solid]] and no [gas]; a case has one of them");
     if (!case_.bodies.empty() && case_.gas) top.problem("gas", "a case holds either solids or gas, not yet both");
@@ -364,10 +365,10 @@ class CaseReader : public KeyReader<CaseReader> {
   }
 
   /// Figures are coloured by one number of each particle.
-  void check_figure_field(TableReader& in, std::string& field) {
+  void check_figure_field(TableReader& in, const std::string& field) {
     if (case_.gas) {
-      if (!in.has("figure_field")) field = "density";
-      return check_gas_fields(in, {field});
+      if (in.has("figure_field")) check_gas_fields(in, {field}, "figure_field");
+      return;
     }
     std::vector<std::string_view> scalars;
     for (const std::string_view name : gauge_fields)
@@ -532,15 +533,15 @@ class CaseReader : public KeyReader<CaseReader> {
     check_gas_fields(in, gauge.fields);
     check_in_box(in, gauge.from, gauge.kind == GaugeKind::line ? gauge.to : gauge.from);
   }
-  void check_gas_fields(TableReader& in, const std::vector<std::string>& fields) {
+  void check_gas_fields(TableReader& in, const std::vector<std::string>& fields, std::string_view key = "fields") {
     std::vector<std::string> names = {"density", "pressure", "velocity", "temperature", "energy", "sound_speed"};
     for (const FluidConfig& fluid : case_.gas->fluids)
       if (case_.gas->fluids.size() > 1) names.push_back("fraction_" + fluid.name);
     const std::vector<std::string_view> allowed(names.begin(), names.end());
     for (const std::string& field : fields)
       if (std::find(names.begin(), names.end(), field) == names.end())
-        in.problem("fields", in_quotes(field) + " is not known of gas; it must be one of " + listed(allowed) +
-                                 did_you_mean(field, allowed));
+        in.problem(key, in_quotes(field) + " is not known of gas; it must be one of " + listed(allowed) +
+                            did_you_mean(field, allowed));
   }
   void check_in_box(TableReader& in, const Vector& from, const Vector& to) {
     for (std::size_t k = 0; k < dimensions(); ++k)

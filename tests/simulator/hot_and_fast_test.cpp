@@ -9,7 +9,7 @@
 namespace brisance::simulator {
 namespace {
 
-TEST(MoltenBar, AtRestStaysAtRestAndKeepsItsBits) {
+TEST(MoltenBar, AtRestStaysAtRest) {
   for (const char* metal : {"steel_4340.toml", "copper_ofhc_johnson_cook.toml", "copper_ofhc_mts.toml", "tungsten.toml"}) {
     SCOPED_TRACE(metal);
     Simulation s = set_up(shipped_case("taylor_4340_208_johnson_cook",
@@ -22,7 +22,8 @@ TEST(MoltenBar, AtRestStaysAtRestAndKeepsItsBits) {
       ASSERT_EQ(ps.rest.at(Columns::Rest::shear_modulus, p), 0.0) << "it is molten";
       EXPECT_EQ(ps.rest.at(Columns::Rest::plastic_strain, p), 0.0);
       EXPECT_EQ(ps.rest.at(Columns::Rest::plastic_work, p), 0.0);
-      EXPECT_EQ(ps.rest.at(Columns::Rest::temperature, p), 4000.0);
+      constexpr double warmth = 1e-9;  // K: the pressure of round-off, 1e-4 Pa, over density and specific heat
+      EXPECT_NEAR(ps.rest.at(Columns::Rest::temperature, p), 4000.0, warmth);
       for (int a = 0; a < 2; ++a) {
         constexpr double at_rest = 1e-9;  // m/s: the pressure of round-off, 1e-4 Pa, over density and cell size for 1 us
         EXPECT_LT(std::abs(ps.motion.at(2 + a, p)), at_rest);

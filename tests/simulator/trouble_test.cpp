@@ -19,7 +19,7 @@ namespace {
 using Layout2 = Layout<2>;
 
 Material copper() {
-  return read_material(std::string(BRISANCE_SOURCE_DIR) + "/data/materials/copper_ofhc_johnson_cook.toml");
+  return read_material(BRISANCE_SOURCE_DIR "/data/materials/copper_ofhc_johnson_cook.toml");
 }
 
 /// A copper block in the plane geometry, 64 particles.
