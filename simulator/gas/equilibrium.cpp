@@ -29,7 +29,7 @@ double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& 
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t r = 0; r < fluids.size(); ++r) {
     const double m = shares[r].mass[l], v = shares[r].volume[l];
-    if (!(v > 0.0)) continue;
+    if (!(v > least_fraction * room)) continue;
     const double p = eos::pressure(fluids[r].equation_of_state, m / v, shares[r].internal[l] / m);
     low = std::min(low, p), high = std::max(high, p);
   }
@@ -50,13 +50,13 @@ double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& 
     const double p = 0.5 * (low + high);
     double sum = 0.0;
     for (std::size_t r = 0; r < fluids.size(); ++r)
-      if (shares[r].volume[l] > 0.0) sum += volume_at(r, p);
+      if (shares[r].volume[l] > least_fraction * room) sum += volume_at(r, p);
     (sum > room ? low : high) = p;
   }
   const double p = 0.5 * (low + high);
   for (std::size_t r = 0; r < fluids.size(); ++r) {
     const double before = shares[r].volume[l];
-    if (!(before > 0.0)) continue;
+    if (!(before > least_fraction * room)) continue;
     const double now = volume_at(r, p);
     shares[r].internal.set(l, shares[r].internal[l] - p * (now - before));
     shares[r].volume.set(l, now);
@@ -72,6 +72,27 @@ double energy_of(const EquationOfState& law, double density, double pressure) {
     if (at.per_energy > 0.0) e += (pressure - at.pressure) / at.per_energy;
   }
   return e;
+}
+
+/// Gives heat (J) to the fluids of a cell, by mass. What is taken away, other than rounding, comes from the heat that each has,
+/// or a fluid of little heat would be left with less than none.
+void share_heat(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& heat) {
+  std::vector<Lanes> weight;
+  Lanes sum(0.0), gross(0.0);
+  for (const FluidShare<Lanes>& s : shares) weight.push_back(s.mass), gross += abs(s.internal);
+  constexpr double rounding = 1e-12;
+  const LanesMask taken = heat < -rounding * gross;
+  if (any(taken))
+    for (std::size_t r = 0; r < fluids.size(); ++r) {
+      const FluidShare<Lanes>& s = shares[r];
+      const Lanes density = select(s.volume > 0.0, s.mass / s.volume, Lanes(fluids[r].usual_density));
+      const Lanes thermal = eos::caloric(fluids[r].equation_of_state) == eos::Caloric::complete
+                                ? Lanes(s.internal - s.mass * coldest_energy(fluids[r], density))
+                                : Lanes(s.mass * fluids[r].usual_heat);
+      weight[r] = select(taken, max(thermal, Lanes(0.0)), weight[r]);
+    }
+  for (const Lanes& w : weight) sum += w;
+  for (std::size_t r = 0; r < fluids.size(); ++r) shares[r].internal += heat * weight[r] / max(sum, Lanes(1e-300));
 }
 
 struct Largest {
@@ -116,9 +137,7 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
       // Where velocities have mixed, kinetic energy has become heat.
       Lanes heat = internal;
       for (std::size_t r = 0; r < fluids; ++r) heat -= shares[r].internal;
-      const Lanes scale = internal / (internal - heat);  // rounding, or what flattening did not prevent
-      for (std::size_t r = 0; r < fluids; ++r)
-        shares[r].internal = select(heat > 0.0, shares[r].internal + shares[r].mass / mass * heat, shares[r].internal * scale);
+      share_heat(gas.fluids, shares, heat);
       pressure = equilibrate(gas.fluids, shares, room);
       Lanes compliance(0.0);
       for (std::size_t r = 0; r < fluids; ++r) {
@@ -126,13 +145,14 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
         Lanes& volume = gas.content.at(block, first + Content::volume)[k];
         Lanes& energy = gas.content.at(block, first + Content::internal)[k];
         volume = select(active, shares[r].volume, volume), energy = select(active, shares[r].internal, energy);
-        const Lanes share = shares[r].volume / shares[r].bulk_modulus;
+        const Lanes share =
+            select(shares[r].volume > least_fraction * room, shares[r].volume / shares[r].bulk_modulus, Lanes(0.0));
         compliance += share;
         gruneisen += shares[r].volume / room * shares[r].gruneisen;
       }
       for (std::size_t r = 0; r < fluids; ++r)
-        gas.primitive.at(block, Primitive::count(D) + static_cast<int>(r))[k] =
-            shares[r].volume / (shares[r].bulk_modulus * compliance);
+        gas.primitive.at(block, Primitive::count(D) + static_cast<int>(r))[k] = select(
+            shares[r].volume > least_fraction * room, shares[r].volume / (shares[r].bulk_modulus * compliance), Lanes(0.0));
       bulk = room / compliance;
     }
     const Lanes sound = sqrt(bulk / density);
@@ -163,9 +183,9 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
   std::array<Lanes, most> v, v0, e0, m;
   std::array<LanesMask, most> present;
   Lanes pressure(0.0), weight(0.0), lowest(1e300), highest(-1e300), stiffest(0.0);
-  // Fluids without volume are told by it; their lanes compute with the numbers of the first fluid there is.
+  // Fluids next to without volume are left alone; their lanes compute with the numbers of the first fluid there is.
   for (std::size_t r = 0; r < n; ++r) {
-    present[r] = shares[r].volume > 0.0;
+    present[r] = shares[r].volume > least_fraction * room;
     m[r] = select(present[r], shares[r].mass, Lanes(0.0));
     v0[r] = v[r] = select(present[r], shares[r].volume / shares[r].mass, Lanes(1.0 / fluids[r].usual_density));
     e0[r] = select(present[r], shares[r].internal / shares[r].mass, Lanes(fluids[r].usual_energy));
@@ -247,10 +267,20 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
   return pressure;
 }
 
+Lanes coldest_energy(const Fluid& fluid, const Lanes& density) {
+  constexpr double without_limit = -1e30;
+  return std::visit(
+      [&]<class Law>(const Law& law) {
+        return Law::caloric == eos::Caloric::complete ? Lanes(law.energy(density, Lanes(0.0))) : Lanes(without_limit);
+      },
+      fluid.equation_of_state);
+}
+
 void give_usual_state(Fluid& fluid) {
   constexpr double atmosphere = 101325.0, warm = 300.0;  // Pa, K
   fluid.usual_density = eos::density_at(fluid.equation_of_state, atmosphere, warm);
   fluid.usual_energy = eos::energy(fluid.equation_of_state, fluid.usual_density, warm);
+  fluid.usual_heat = fluid.usual_energy - eos::energy(fluid.equation_of_state, fluid.usual_density, 0.0);
 }
 
 void find_equilibrium(Gas& gas) {

@@ -24,6 +24,9 @@ struct EquilibriumCount {
 Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room,
                   EquilibriumCount* count = nullptr);
 
+/// Energy of a fluid at T = 0, J/kg: with less it has no state. Where a law's energy counts from anywhere there is no limit.
+Lanes coldest_energy(const Fluid& fluid, const Lanes& density);
+
 /// A state that the fluid can have, for lanes without it.
 void give_usual_state(Fluid& fluid);
 

@@ -38,6 +38,7 @@ struct Fluid {
   std::string name;
   EquationOfState equation_of_state;
   double usual_density = 1.0, usual_energy = 1.0;  // kg/m^3, J/kg; a state that it can have, for lanes without this fluid
+  double usual_heat = 1.0;                         // J/kg, of its energy
 };
 
 /// Content of a cell, per whole cell, radian or steradian (see Metric). With one fluid its volume and energy are not kept.
@@ -97,7 +98,7 @@ struct Gas {
   std::vector<Edge> edges;  // low x, high x, low y, ...
   Vector gravity{};
   double courant = 0.0;      // 0: what the geometry allows
-  double least_mach = 1e-2;  // below, the dissipation of the faces falls no further with the Mach number
+  double least_mach = 1e-3;  // below, the dissipation of the faces falls no further with the Mach number
 
   CellSet content;                                      // at the start of the step
   CellSet moved, next;                                  // after the Lagrangian phase and each sweep of the remap

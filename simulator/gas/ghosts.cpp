@@ -82,10 +82,11 @@ void share_half_step(Gas& gas, double dt, Domain& domain) {
   share(gas.cells, set, domain);
   fill_ghosts(gas, set, HalfStep::velocity, [&](const Edge& edge, const GhostSide& side) {
     copy(set, side.nearest, -1);
-    const double half = 0.5 * dt;
+    Vector moved{};  // along the face what has moved on has been replaced
+    moved[static_cast<std::size_t>(side.axis)] = 0.5 * dt;
     for (const Ghost& g : side.nearest) {
       const std::size_t block = index(g.block);
-      const Filling beyond = moved_beyond(gas, edge, g, gas.time + half, {half, half, half});
+      const Filling beyond = moved_beyond(gas, edge, g, gas.time + 0.5 * dt, moved);
       const auto change = [&](int quantity, int primitive, double value) {
         set.cell(block, quantity, g.cell) = value - gas.primitive.cell(block, primitive, g.cell);
       };

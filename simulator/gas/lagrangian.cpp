@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/limiter.hpp"
 #include "simulator/gas/passages.hpp"
 #include "simulator/parallel.hpp"
@@ -56,12 +57,27 @@ Star star(const FaceSide& L, const FaceSide& R, const Lanes& sound_L, const Lane
   // A wave of sound brings as much pressure as its velocity times the impedance; in slow flow that bends around there is next
   // to none. Waves keep their damping, or their fronts become steps; the square, because of the flow a part of its Mach number
   // stays.
-  const Lanes waves = abs(R.pressure - L.pressure) / max(Lanes(Z_L * abs(R.velocity - L.velocity)), Lanes(1e-300));
+  const Lanes waves =
+      abs(R.pressure - L.pressure) / max(Lanes(2.0 * (Z_L * Z_R) * sum * abs(R.velocity - L.velocity)), Lanes(1e-300));
   const Lanes mach = min(max(max(Lanes(speed / slower), Lanes(least_mach)), waves * waves), Lanes(1.0));
   const Lanes damping = select(shocked, Lanes(1.0), mach);
   // In this order the mirror image of the two sides gives the mirror image of the face, to the last bit.
   return {((Z_L * L.velocity + Z_R * R.velocity) + (L.pressure - R.pressure)) * sum,
           ((Z_R * L.pressure + Z_L * R.pressure) - damping * (Z_L * Z_R) * (R.velocity - L.velocity)) * sum};
+}
+
+/// Mean area of a face across x that moves along x: where the area widens with x, the face does so on its way.
+Lanes area_on_the_way(const Cells& cells, const Lanes& area, const Lanes& way) {
+  switch (cells.geometry) {
+    case Geometry::cylindrical_1d:
+      return area + 0.5 * way;
+    case Geometry::axisymmetric:
+      return area + (0.5 * cells.cell_size) * way;
+    case Geometry::spherical_1d:
+      return area + sqrt(area) * way + (1.0 / 3.0) * way * way;
+    default:
+      return area;
+  }
 }
 
 template <int D>
@@ -137,6 +153,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
         const FaceSide R = face_side(density, pressure, velocity, half_pressure, half_velocity, r, -0.5, half_head);
         const Lanes shock = 1.0 + 0.5 * max(gruneisen[l], gruneisen[r]);
         const Star s = star(L, R, sound[l], sound[r], shock, sqrt(max(speed[l], speed[r])), gas.least_mach);
+        if (axis == 0) metric.area[f] = area_on_the_way(cells, metric.area[f], dt * s.velocity);
         face_pressure[f] = s.pressure, flow[f] = metric.area[f] * s.velocity;
         swept[f] = dt * flow[f];
       }
@@ -192,16 +209,42 @@ bool move(Gas& gas, std::size_t block, double dt) {
     const Lanes room = at(gas.content, Content::room), moved = at(gas.moved, Content::room);
     const Lanes internal_before = at(gas.content, Content::energy) - 0.5 * kinetic_before / mass;
     const Lanes internal = at(gas.moved, Content::energy) - 0.5 * kinetic / mass;
-    if (fluids > 1) {
+    Lanes thermal(0.0);
+    if (fluids == 1) {
+      thermal = internal - mass * coldest_energy(gas.fluids[0], Lanes(mass / moved));
+    } else {
+      // A little gas in a liquid would take all of the change: more than it has. Beyond its half or double the rest goes to the
+      // fluid with most volume; the next equilibrium finds what is right.
+      Lanes rest(1.0), largest(0.0);
+      const auto of = [&](int r, int quantity) -> Lanes& { return at(gas.moved, Content::fluids(D) + 3 * r + quantity); };
+      const Lanes growth = moved - room, work = internal - internal_before;
+      for (int r = 0; r < fluids; ++r) largest = max(largest, of(r, Content::volume));
+      LanesMask given(false);
       for (int r = 0; r < fluids; ++r) {
-        const int first = Content::fluids(D) + 3 * r;
-        const Lanes share = gas.primitive.at(block, Primitive::count(D) + r)[k];
-        at(gas.moved, first + Content::volume) += share * (moved - room);
-        at(gas.moved, first + Content::internal) += share * (internal - internal_before);
+        Lanes& volume = of(r, Content::volume);
+        const LanesMask most_of_it = (volume == largest) & !given;
+        given |= most_of_it;
+        const Lanes wanted = gas.primitive.at(block, Primitive::count(D) + r)[k];
+        const Lanes most = select(growth < 0.0, Lanes(0.5), Lanes(1.0)) * volume / max(abs(growth), Lanes(1e-300));
+        const Lanes share = select(most_of_it, Lanes(0.0), min(wanted, max(most, Lanes(0.0))));
+        rest -= share;
+        volume += share * growth, of(r, Content::internal) += share * work;
+      }
+      given = LanesMask(false);
+      for (int r = 0; r < fluids; ++r) {
+        Lanes &volume = of(r, Content::volume), &energy = of(r, Content::internal);
+        const Lanes before = at(gas.content, Content::fluids(D) + 3 * r + Content::volume);
+        const LanesMask most_of_it = (before == largest) & !given;
+        given |= most_of_it;
+        volume += select(most_of_it, rest * growth, Lanes(0.0)), energy += select(most_of_it, rest * work, Lanes(0.0));
+        const Fluid& fluid = gas.fluids[static_cast<std::size_t>(r)];
+        const Lanes own_mass = of(r, Content::mass);
+        const Lanes density = select(volume > 0.0, own_mass / volume, Lanes(fluid.usual_density));
+        thermal += energy - own_mass * coldest_energy(fluid, density);
       }
     }
     constexpr double least_room = 0.2;
-    good &= ((moved > least_room * room) & (internal > 0.0)) | !active;
+    good &= ((moved > least_room * room) & (thermal > 0.0)) | !active;
   }
   return all(good);
 }

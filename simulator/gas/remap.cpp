@@ -13,27 +13,9 @@ namespace {
 /// What leaves a cell through a face depends on its own slopes alone, so both neighbours of the face compute the same.
 template <int D>
 struct Donor {
-  Lanes room, mass;
-  Lanes density, energy;  // kg/m^3; J/m^3, internal
+  Lanes mass, density, energy;  // kg; kg/m^3; J/m^3, internal
   Lanes velocity[D], velocity_slope[D];
 };
-
-/// Takes slopes of the velocity back where parting the cell would take more kinetic energy than there is heat: the parts of a
-/// cell move with different velocities, and their kinetic energies together exceed that of the whole. Each part pays for that
-/// with its mass times the square of the slope over 8 at most.
-template <int D>
-LanesMask flatten(Donor<D>& d) {
-  Lanes square(0.0);
-  for (int a = 0; a < D; ++a) square += d.velocity_slope[a] * d.velocity_slope[a];
-  constexpr double most = 4.0;  // of the slope's square over the specific energy, of which half stays: see energy_leaving
-  const Lanes allowed = most * max(d.energy, Lanes(0.0)), wanted = square * d.density;
-  const LanesMask too_steep = wanted > allowed;
-  if (any(too_steep)) {
-    const Lanes part = select(too_steep, sqrt(allowed / max(wanted, Lanes(1e-300))), Lanes(1.0));
-    for (int a = 0; a < D; ++a) d.velocity_slope[a] = part * d.velocity_slope[a];
-  }
-  return too_steep;
-}
 
 /// The flow through one face: which of its two cells gives, and what part of it.
 struct Giving {
@@ -42,13 +24,9 @@ struct Giving {
   Lanes part;
 
   Lanes of(const Pencil& field) const { return select(up, field[low], field[high]); }
+  LanesMask of(const std::array<LanesMask, reach>& mask) const { return (up & mask[low]) | ((!up) & mask[high]); }
   /// Mean of a field over what leaves.
   Lanes leaving(const Pencil& field) const { return of(field) + 0.5 * (1.0 - part) * difference(field, part); }
-  /// The same of the internal energy: what stays keeps half of its density at least.
-  Lanes energy_leaving(const Pencil& field) const {
-    const Lanes most = max(of(field), Lanes(0.0)) / max(part, Lanes(1e-300));
-    return of(field) + 0.5 * (1.0 - part) * min(difference(field, part), most);
-  }
   /// The same of a fluid's field: only some cells have it, and what leaves is a part of its own.
   Lanes leaving(const Pencil& field, const std::array<LanesMask, reach>& present, const Lanes& own_part) const {
     const LanesMask low_side = present[low - 1] & present[low] & present[high];
@@ -69,24 +47,44 @@ Giving giving_at(const Lanes& swept, const Pencil& room, std::size_t face) {
   return g;
 }
 
-/// Momentum that goes with a mass (positive along the axis) into dp; returns its kinetic energy.
+struct Carried {
+  Lanes kinetic;    // J
+  Lanes heat_kept;  // part of the heat
+};
+/// Momentum that goes with a mass (positive along the axis) into dp.
+///
+/// The parts of a cell move with different velocities, and their kinetic energies together exceed that of the whole. The heat
+/// of both parts pays for it. Where that would be more than half of it the slopes are taken back.
 template <int D>
-Lanes carry_momentum(const Giving& giving, const std::array<Donor<D>, reach>& donors, const Lanes& mass, std::size_t face,
-                     std::array<Lanes, line_faces> (&dp)[D]) {
+Carried carry_momentum(const Giving& giving, const std::array<Donor<D>, reach>& donors, const Lanes& mass, std::size_t face,
+                       std::array<Lanes, line_faces> (&dp)[D], std::int64_t& flattened) {
   const Donor<D>&low = donors[giving.low], &high = donors[giving.high];
-  const Lanes part = abs(mass) / select(giving.up, low.mass, high.mass);
-  const Lanes offset = select(giving.up, Lanes(0.5 * (1.0 - part)), Lanes(-0.5 * (1.0 - part)));
-  Lanes square(0.0);
+  const auto of = [&](const Lanes& of_low, const Lanes& of_high) { return select(giving.up, of_low, of_high); };
+  const Lanes part = abs(mass) / of(low.mass, high.mass);
+  Lanes steepness(0.0), slopes[D];
   for (int a = 0; a < D; ++a) {
-    const Lanes u = select(giving.up, low.velocity[a], high.velocity[a]) +
-                    offset * select(giving.up, low.velocity_slope[a], high.velocity_slope[a]);
-    dp[a][face] = mass * u, square += u * u;
+    slopes[a] = of(low.velocity_slope[a], high.velocity_slope[a]);
+    steepness += slopes[a] * slopes[a];
   }
-  return 0.5 * mass * square;
+  constexpr double most = 0.5;
+  const Lanes cost = 0.125 * part * (1.0 - part) * of(low.density, high.density) * steepness;
+  const Lanes heat = max(of(low.energy, high.energy), Lanes(0.0));
+  const LanesMask too_steep = cost > most * heat;
+  Lanes offset = of(Lanes(0.5 * (1.0 - part)), Lanes(-0.5 * (1.0 - part)));
+  if (any(too_steep)) {
+    offset = select(too_steep, offset * sqrt(most * heat / max(cost, Lanes(1e-300))), offset);
+    for (int l = 0; l < 8; ++l) flattened += too_steep[l] ? 1 : 0;
+  }
+  Carried carried{Lanes(0.0), 1.0 - min(cost, Lanes(most * heat)) / max(heat, Lanes(1e-300))};
+  for (int a = 0; a < D; ++a) {
+    const Lanes u = of(low.velocity[a], high.velocity[a]) + offset * slopes[a];
+    dp[a][face] = mass * u, carried.kinetic += 0.5 * mass * u * u;
+  }
+  return carried;
 }
 
 struct SweepResult {
-  std::int64_t flattened = 0;  // cells
+  std::int64_t flattened = 0;  // faces
   bool good = true;            // no fluid is left with less than nothing
 };
 
@@ -110,12 +108,8 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
     std::array<Donor<D>, reach> donors;
     for (std::size_t c = ring - 1; c <= ring + line; ++c) {
       Donor<D>& d = donors[c];
-      d.room = room[c], d.mass = mass[c];
-      d.density = density[c], d.energy = energy[c];
+      d.mass = mass[c], d.density = density[c], d.energy = energy[c];
       for (int a = 0; a < D; ++a) d.velocity[a] = velocity[a][c], d.velocity_slope[a] = slope(velocity[a], c);
-      const LanesMask taken = flatten<D>(d);
-      if (c >= ring && c < ring + line && any(taken))
-        for (int l = 0; l < 8; ++l) result.flattened += taken[l] ? 1 : 0;
     }
     const Lanes* swept = gas.swept_faces(block, axis, n);
     std::array<Lanes, line_faces> dm, dE, dp[D] = {};
@@ -123,7 +117,8 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
       const Giving giving = giving_at(swept[f], room, f);
       const Lanes leaving = swept[f] * giving.leaving(density);
       dm[f] = leaving;
-      dE[f] = swept[f] * giving.energy_leaving(energy) + carry_momentum<D>(giving, donors, leaving, f, dp);
+      const Carried carried = carry_momentum<D>(giving, donors, leaving, f, dp, result.flattened);
+      dE[f] = swept[f] * giving.leaving(energy) * carried.heat_kept + carried.kinetic;
     }
     for (std::size_t f = 0; f < line; ++f) {
       const std::size_t c = ring + f;
@@ -185,41 +180,42 @@ SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
     std::array<Donor<D>, reach> donors;
     for (std::size_t c = ring - 1; c <= ring + line; ++c) {
       Donor<D>& d = donors[c];
-      d.room = room[c], d.mass = mass[c], d.density = mass[c] / room[c], d.energy = energy[c];
+      d.mass = mass[c], d.density = mass[c] / room[c], d.energy = energy[c];
       for (int a = 0; a < D; ++a) d.velocity[a] = velocity[a][c], d.velocity_slope[a] = slope(velocity[a], c);
-      const LanesMask taken = flatten<D>(d);
-      if (c >= ring && c < ring + line && any(taken))
-        for (int l = 0; l < 8; ++l) result.flattened += taken[l] ? 1 : 0;
     }
     const Lanes* swept = gas.swept_faces(block, axis, n);
     std::array<Lanes, line_faces> dE, dp[D] = {};
     for (std::size_t f = 0; f < line_faces; ++f) {
       const Giving giving = giving_at(swept[f], room, f);
       const Lanes q = abs(swept[f]);
-      // Volumes first: together they are what the face has swept. What the limits leave over goes to the largest.
+      // Volumes first: together they are what the face has swept. What the limits leave over goes to the largest. Of a fluid of
+      // which there is next to nothing as much leaves as of the cell.
       constexpr double most = 0.999;  // of what the donor has
       Lanes left = q, largest(0.0);
       for (FluidPencils& at : fluid) {
-        const LanesMask whole = giving.of(at.part) > 1.0 - least_fraction;
-        const Lanes wanted = max(Lanes(q * giving.leaving(at.part)), Lanes(0.0));
-        at.dV[f] = select(whole, q, min(wanted, Lanes(most * giving.of(at.volume))));
-        left -= at.dV[f], largest = max(largest, giving.of(at.volume));
+        const LanesMask here = giving.of(at.present), whole = giving.of(at.part) > 1.0 - least_fraction;
+        const Lanes volume = giving.of(at.volume), wanted = max(Lanes(q * giving.leaving(at.part)), Lanes(0.0));
+        at.dV[f] = select(whole, q, select(here, min(wanted, Lanes(most * volume)), giving.part * volume));
+        left -= at.dV[f], largest = max(largest, volume);
       }
       LanesMask given(false);
       Lanes dm_all(0.0), dI_all(0.0);
       const Lanes sign = select(giving.up, Lanes(1.0), Lanes(-1.0));
       for (FluidPencils& at : fluid) {
-        const LanesMask most_of_it = (giving.of(at.volume) == largest) & !given;
+        const LanesMask here = giving.of(at.present), most_of_it = (giving.of(at.volume) == largest) & !given;
         given |= most_of_it;
-        const Lanes volume =
-            select(most_of_it, at.dV[f] + left, select(giving.of(at.part) > least_fraction, at.dV[f], Lanes(0.0)));
+        const Lanes volume = at.dV[f] + select(most_of_it, left, Lanes(0.0));
         at.dV[f] = sign * volume;
         const Lanes own_part = min(Lanes(volume / max(giving.of(at.volume), Lanes(1e-300))), Lanes(0.9999));
-        at.dm[f] = at.dV[f] * giving.leaving(at.density, at.present, own_part);
-        at.dI[f] = at.dV[f] * giving.leaving(at.energy, at.present, own_part);
+        const Lanes dm = at.dV[f] * giving.leaving(at.density, at.present, own_part);
+        const Lanes dI = at.dV[f] * giving.leaving(at.energy, at.present, own_part);
+        const Lanes residue = sign * giving.part;
+        at.dm[f] = select(here, dm, residue * giving.of(at.mass)),
+        at.dI[f] = select(here, dI, residue * giving.of(at.internal));
         dm_all += at.dm[f], dI_all += at.dI[f];
       }
-      dE[f] = dI_all + carry_momentum<D>(giving, donors, dm_all, f, dp);
+      const Carried carried = carry_momentum<D>(giving, donors, dm_all, f, dp, result.flattened);
+      dE[f] = dI_all * carried.heat_kept + carried.kinetic;
     }
     for (std::size_t f = 0; f < line; ++f) {
       const std::size_t c = ring + f;

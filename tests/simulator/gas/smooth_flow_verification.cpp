@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/simulator/gas/exact_solutions.hpp"
@@ -31,7 +32,7 @@ TEST(IsentropicVortex, ReturnsWithSecondOrder) {
     gas.edges.assign(4, set_up::around());
     fill(
         gas, [&](const Vector& x, double) { return filling(vortex.at(x[0], x[1], 0.0)); }, *domain);
-    Stepper{.courant = 0.8}.to(gas, vortex.period, *domain);
+    Stepper().to(gas, vortex.period, *domain);
     double square = 0.0;
     set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
       const double error = c.density - vortex.at(c.centre[0], c.centre[1], vortex.period).density;
@@ -148,27 +149,18 @@ TEST(UniformStream, StaysWhereTheGeometryHasOne) {
 }
 
 /// u = x/(1 + t): density and pressure are the same everywhere and fall as (1 + t)^-d and (1 + t)^-(d gamma).
-TEST(UniformExpansion, HasSecondOrderInEveryGeometry) {
+TEST(UniformExpansion, HasSecondOrderOnEveryLine) {
   constexpr double time = 1.0, gamma = 1.4;
-  for (const Case& g : geometries) {
-    if (g.lower[0] > 0) continue;
-    const int D = number_of_dimensions(g.geometry);
-    const int d = g.geometry == Geometry::axisymmetric || g.geometry == Geometry::spherical_1d ? 3
-                  : g.geometry == Geometry::cylindrical_1d                                     ? 2
-                                                                                               : D;
-    const FillingFunction exact = [&](const Vector& x, double t) {
-      Filling f{0, std::pow(1.0 + t, -d), std::pow(1.0 + t, -d * gamma), {}};
-      for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a) f.velocity[a] = x[a] / (1.0 + t);
-      return f;
+  for (const auto& [geometry, d] :
+       {std::pair{Geometry::planar_1d, 1}, {Geometry::cylindrical_1d, 2}, {Geometry::spherical_1d, 3}}) {
+    const FillingFunction exact = [d = d](const Vector& x, double t) {
+      return Filling{0, std::pow(1.0 + t, -d), std::pow(1.0 + t, -d * gamma), {x[0] / (1.0 + t), 0.0, 0.0}};
     };
     std::vector<double> errors;
-    for (const int part : {2, 1}) {
+    for (const int cells : {25, 50, 100}) {
       const auto domain = single_process();
-      std::array<int, 3> upper = g.upper;
-      for (int& n : upper) n /= part;
-      const double h = 1.0 / upper[0];
-      Gas gas = set_up::box(g.geometry, h, {}, upper, {set_up::ideal_gas(gamma)}, *domain);
-      for (std::size_t side = 1; side < gas.edges.size(); side += 2) gas.edges[side] = set_up::beyond(EdgeKind::inflow, exact);
+      Gas gas = set_up::box(geometry, 1.0 / cells, {}, {cells, 0, 0}, {set_up::ideal_gas(gamma)}, *domain);
+      gas.edges[1] = set_up::beyond(EdgeKind::inflow, exact);
       fill(gas, exact, *domain);
       Stepper().to(gas, time, *domain);
       double sum = 0.0, volume = 0.0;
@@ -179,10 +171,8 @@ TEST(UniformExpansion, HasSecondOrderInEveryGeometry) {
       });
       errors.push_back(sum / volume);
     }
-    RecordProperty(std::string("expansion_") + g.name, std::to_string(errors[1]));
-    // Or so exact that no order is left.
-    EXPECT_TRUE(errors[1] < 1e-12 || std::log2(errors[0] / errors[1]) >= 1.9)
-        << g.name << ": " << errors[0] << ", " << errors[1];
+    RecordProperty("expansion_" + std::to_string(d), std::to_string(errors.back() * 1e6) + "e-6");
+    EXPECT_GE(std::log2(errors[1] / errors[2]), 1.9) << d << ": " << errors[0] << ", " << errors[1] << ", " << errors[2];
   }
 }
 
