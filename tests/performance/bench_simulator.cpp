@@ -4,7 +4,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 
@@ -12,6 +11,7 @@
 #include "simulator/setup.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
+#include "tests/performance/environment.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -62,22 +62,29 @@ void measure(const Setting& setting) {
   const Case c = bar(setting);
   Simulation s = set_up(c);
   const double particles = s.bodies[0].particles.size;
-  const int warm = 30, steps = std::max(10, static_cast<int>(4e6 / particles));
   const auto go = [&](int count) {
     for (int i = 0; i < count; ++i) {
       double dt = next_step(s, c.numerics, c.end_time).dt;
       while (advance(s, dt) != StepOutcome::done) dt *= 0.5;
     }
   };
-  go(warm);
-  s.times = {};
-  const auto start = std::chrono::steady_clock::now();
-  go(steps);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  go(30);
+  // The fastest of some parts: what the machine can do when nothing disturbs it.
+  constexpr int parts = 5;
+  const int steps = std::max(2, static_cast<int>(8e5 / particles));
+  PhaseTimes phases;
+  double seconds = 1e300;
+  for (int part = 0; part < parts; ++part) {
+    s.times = {};
+    const auto start = Clock::now();
+    go(steps);
+    const double time = std::chrono::duration<double>(Clock::now() - start).count();
+    if (time < seconds) seconds = time, phases = s.times;
+  }
   const double per = 1e9 / (particles * steps);
   fmt::print("{:<8} {:<10} {:>9.0f} {:>8} {:>9.1f}", setting.geometry == Geometry::three_dimensional ? "3-D" : "2-D axi",
              setting.basis == Basis::ugimp ? "uGIMP" : "quadratic", particles, setting.threads, seconds * per);
-  for (const double t : s.times.seconds) fmt::print(" {:>9.1f}", t * per);
+  for (const double t : phases.seconds) fmt::print(" {:>9.1f}", t * per);
   fmt::print(
       " {:>9.0f}\n",
       static_cast<double>(s.bodies[0].particles.bytes() + s.bodies[0].bins.order.capacity() * 4 + s.grid.bytes()) / particles);
@@ -85,8 +92,10 @@ void measure(const Setting& setting) {
 }
 
 int run(bool quick) {
+  const double flops = print_environment().flops;
   fmt::print(
       "Taylor bar of copper: Johnson-Cook, Mie-Grueneisen; MUSL, AFLIP, locking cure, artificial viscosity, books, order\n");
+  fmt::print("goal for 3-D, quadratic, one thread: 200 ns on a core of 133 Gflop/s, here {:.0f}\n", 200.0 * 133.0 / flops);
   fmt::print("ns per particle-step\n{:<8} {:<10} {:>9} {:>8} {:>9}", "geometry", "basis", "particles", "threads", "total");
   for (const char* name : {"to grid", "sums", "nodes", "from grid", "gradients", "stress", "order"}) fmt::print(" {:>9}", name);
   fmt::print(" {:>9}\n", "bytes");
