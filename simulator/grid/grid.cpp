@@ -127,8 +127,7 @@ void activate(Grid& grid, std::span<const BlockKey> with_particles, const Partit
   grid.contributions.assign(grid.blocks.size(), {});
   grid.tile_neighbours.assign(grid.tile_block.size(), {});
   for (std::size_t b = 0; b < grid.blocks.size(); ++b)
-    if (partition.owner(grid.blocks[b]) == me)
-      grid.my_blocks.push_back(static_cast<std::int32_t>(b));
+    if (partition.owner(grid.blocks[b]) == me) grid.my_blocks.push_back(static_cast<std::int32_t>(b));
   for (std::size_t t = 0; t < grid.tile_block.size(); ++t)  // in Morton order, so contributions are as well
     for_each_neighbour(grid.dimensions, block_position(grid.tile_block[t]),
                        [&](const BlockPosition& n, const auto& offset, int index) {
