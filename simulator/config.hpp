@@ -157,7 +157,7 @@ struct EdgeConfig : GasStateConfig {
 struct GasConfig {
   Vector lower{}, upper{};  // m, on planes of nodes
   double courant = 0.0;     // 0: 0.5
-  double least_mach = 0.01;
+  double least_mach = 0.001;
   std::vector<FluidConfig> fluids;
   std::vector<FillConfig> fills;
   std::vector<EdgeConfig> edges;
