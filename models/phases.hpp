@@ -140,9 +140,13 @@ void cavitation(const M& material, Batch<Real>& batch) {
       const mask_of<Real> melted = s.temperature >= p.melting_temperature;
       if (none(melted)) continue;
       mask_of<Real> active = melted & ((p.trial_pressure < 0.0) | ((before > 0.0) & (p.trial_pressure > 0.0)));
-      // Newton's method: rho dp/drho is the bulk modulus where p = 0.
+      // Newton's method in the density of the metal, in which tension is nearly linear; in its logarithm a metal torn to a
+      // third of its density would be compressed to twice of it by the first iteration. rho dp/drho is the bulk modulus where p
+      // = 0.
+      constexpr double least_ratio = 0.5;  // of two densities
       for (int i = 0; i < most_iterations && any(active); ++i) {
-        const Real v = max(s.plastic_volume_strain - p.trial_pressure / p.bulk_modulus, Real(0.0));
+        const Real ratio = max(1.0 - p.trial_pressure / p.bulk_modulus, Real(least_ratio));
+        const Real v = max(s.plastic_volume_strain + log(ratio), Real(0.0));
         const mask_of<Real> moved = abs(v - s.plastic_volume_strain) > negligible;
         s.plastic_volume_strain = select(active, v, s.plastic_volume_strain);
         p.metal_density = metal_density(s);

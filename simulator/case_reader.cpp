@@ -13,6 +13,7 @@
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "models/input/csv.hpp"
 #include "models/input/table_reader.hpp"
+#include "simulator/gas/fields.hpp"
 #include "simulator/keys.hpp"
 #include "simulator/output/line_out.hpp"
 #include "simulator/solid/shapes.hpp"
@@ -534,9 +535,9 @@ class CaseReader : public KeyReader<CaseReader> {
     check_in_box(in, gauge.from, gauge.kind == GaugeKind::line ? gauge.to : gauge.from);
   }
   void check_gas_fields(TableReader& in, const std::vector<std::string>& fields, std::string_view key = "fields") {
-    std::vector<std::string> names = {"density", "pressure", "velocity", "temperature", "energy", "sound_speed"};
-    for (const FluidConfig& fluid : case_.gas->fluids)
-      if (case_.gas->fluids.size() > 1) names.push_back("fraction_" + fluid.name);
+    std::vector<std::string> fluids, names;
+    for (const FluidConfig& fluid : case_.gas->fluids) fluids.push_back(fluid.name);
+    for (const gas::Field& field : gas::fields(case_.dimensions(), fluids)) names.push_back(field.name);
     const std::vector<std::string_view> allowed(names.begin(), names.end());
     for (const std::string& field : fields)
       if (std::find(names.begin(), names.end(), field) == names.end())

@@ -116,11 +116,12 @@ int check_case(const Options& o) {
   Simulation s = set_up_or_refuse(c);
   const DryRun dry = dry_run(c, s);
   fmt::print("{}\n", c.title);
-  for (const auto& [body, particles] : dry.particles) fmt::print("  {:24} {} particles\n", body, particles);
+  const std::string_view point = name_of_points(s);
+  for (const auto& [name, count] : dry.points) fmt::print("  {:24} {} {}s\n", name, count, point);
   fmt::print("  {:24} {:.1f} MB\n  {:24} {:.4g} s, limited by {}\n", "memory", dry.megabytes, "time step", dry.first_step,
              dry.limit);
-  fmt::print("  {:24} {:.3g}\n  {:24} {:.0f} ns per particle and step, measured now with {} threads\n", "steps, about",
-             dry.steps, "speed", dry.nanoseconds, omp_get_max_threads());
+  fmt::print("  {:24} {:.3g}\n  {:24} {:.0f} ns per {} and step, measured now with {} threads\n", "steps, about", dry.steps,
+             "speed", dry.nanoseconds, point, omp_get_max_threads());
   fmt::print("  {:24} {}\n", "time on the clock, about",
              dry.hours < 0.1 ? fmt::format("{:.1f} s", 3600.0 * dry.hours) : fmt::format("{:.2f} h", dry.hours));
   for (const std::string& warning : dry.warnings) fmt::print("  warning: {}\n", warning);

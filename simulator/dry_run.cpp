@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "simulator/output/fields.hpp"
+#include "simulator/run.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/thickness.hpp"
 #include "simulator/time_step.hpp"
@@ -39,7 +39,7 @@ std::vector<std::string> warnings_of(const Case& c, const Simulation& s, double 
                                    c.numerics.least_step, first_step));
   if (c.output.snapshot_interval > 0.0 && c.end_time / c.output.snapshot_interval > 1000.0)
     warnings.push_back(fmt::format("output.snapshot_interval gives {:.0f} snapshots", c.end_time / c.output.snapshot_interval));
-  if (fastest == 0.0 && c.loads.empty() && dot(c.gravity, c.gravity) == 0.0 &&
+  if (!c.bodies.empty() && fastest == 0.0 && c.loads.empty() && dot(c.gravity, c.gravity) == 0.0 &&
       std::none_of(c.boundaries.begin(), c.boundaries.end(),
                    [](const BoundaryConfig& b) { return b.kind == BoundaryKind::velocity; }))
     warnings.push_back("nothing moves: no body has a velocity, and there is no load, no gravity and no moving boundary");
@@ -50,11 +50,9 @@ std::vector<std::string> warnings_of(const Case& c, const Simulation& s, double 
 
 DryRun dry_run(const Case& c, Simulation& s) {
   DryRun result;
-  double particles = 0.0;
-  for (const Body& body : s.bodies) {
-    result.particles.emplace_back(body.name, body.particles.size);
-    particles += body.particles.size;
-  }
+  for (const Body& body : s.bodies) result.points.emplace_back(body.name, body.particles.size);
+  if (!s.gas.empty()) result.points.emplace_back("gas", s.gas.cells.count());
+  const auto points = static_cast<double>(count_points(s));
   const StepSize first = next_step(s, c.numerics, c.end_time);
   result.first_step = first.dt, result.limit = first.limit;
   result.warnings = warnings_of(c, s, result.first_step);
@@ -69,14 +67,14 @@ DryRun dry_run(const Case& c, Simulation& s) {
     if (advance(s, next_step(s, c.numerics, c.end_time).dt) == StepOutcome::rejected) break;
     shortest = i == 0 ? seconds(step_start) : std::min(shortest, seconds(step_start));
   }
-  double bytes = static_cast<double>(s.grid.bytes());
+  double bytes = static_cast<double>(s.grid.bytes() + s.gas.bytes());
   for (const Body& body : s.bodies) bytes += static_cast<double>(body.particles.bytes());
   result.megabytes = bytes / 1e6;
   // The start is often slower than what follows, or faster: this is a guess.
   const double step = std::max(result.first_step, s.last_time_step);
   result.steps = c.end_time / step;
-  result.nanoseconds = 1e9 * shortest / particles;
-  result.hours = result.steps * particles * result.nanoseconds * 1e-9 / 3600.0;
+  result.nanoseconds = 1e9 * shortest / points;
+  result.hours = result.steps * points * result.nanoseconds * 1e-9 / 3600.0;
   return result;
 }
 

@@ -11,12 +11,12 @@
 namespace brisance::simulator {
 
 struct DryRun {
-  std::vector<std::pair<std::string, std::int64_t>> particles;  // by body
+  std::vector<std::pair<std::string, std::int64_t>> points;  // particles of each body, or cells of the gas
   double megabytes = 0.0;
   double first_step = 0.0;   // s
   std::string limit;         // what the first step is limited by
   double steps = 0.0;        // if the steps stay as the first one
-  double nanoseconds = 0.0;  // per particle and step, of a few steps taken
+  double nanoseconds = 0.0;  // per particle or cell and step, of a few steps taken
   double hours = 0.0;
   std::vector<std::string> warnings;
 };

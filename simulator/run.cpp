@@ -34,16 +34,6 @@ struct RunFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Particles, or cells of gas.
-std::int64_t count_points(const Simulation& s) {
-  std::int64_t count = s.gas.empty() ? 0 : s.gas.cells.count();
-  for (const Body& body : s.bodies) count += body.particles.size;
-  return count;
-}
-std::string_view points_of(const Simulation& s) {
-  return s.gas.empty() ? "particle" : "cell";
-}
-
 /// How often an interval fits into a time; what is due at a time depends on nothing else.
 std::int64_t count(double time, double interval) {
   return interval > 0.0 ? static_cast<std::int64_t>(std::floor(time / interval)) : 0;
@@ -79,7 +69,7 @@ class Run {
         row_interval_(c.output.history_interval > 0.0 ? c.output.history_interval : c.end_time / 500.0) {}
 
   RunResult begin() {
-    log_.line(fmt::format("{}: {} {}s, {} threads", case_.title, count_points(s_), points_of(s_), omp_get_max_threads()));
+    log_.line(fmt::format("{}: {} {}s, {} threads", case_.title, count_points(s_), name_of_points(s_), omp_get_max_threads()));
     return guarded([&] {
       history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), 0);
       add_row();
@@ -233,7 +223,7 @@ class Run {
     progress_line_->show(fmt::format(
         "{:5.1f} %  {:.4g} s  step {} of {:.3g} s  {:.3g} steps/s  {:.3g} {}-steps/s  {} left  {:.0f} MB",
         100.0 * s_.time / end_, s_.time, s_.step, s_.last_time_step, rate, rate * static_cast<double>(count_points(s_)),
-        points_of(s_), clock_text((end_ - s_.time) / speed), megabytes_used()));
+        name_of_points(s_), clock_text((end_ - s_.time) / speed), megabytes_used()));
   }
 
   /// What goes wrong from here on is told as well, but does not hide what went wrong before.
@@ -290,6 +280,16 @@ class Run {
 };
 
 }  // namespace
+
+std::int64_t count_points(const Simulation& s) {
+  std::int64_t count = s.gas.empty() ? 0 : s.gas.cells.count();
+  for (const Body& body : s.bodies) count += body.particles.size;
+  return count;
+}
+
+std::string_view name_of_points(const Simulation& s) {
+  return s.gas.empty() ? "particle" : "cell";
+}
 
 RunResult run(const Case& c, Simulation& s, const RunOptions& options) {
   return Run(c, s, options).begin();

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "simulator/output/summary.hpp"
 #include "simulator/simulation.hpp"
@@ -26,6 +27,10 @@ struct RunResult {
   std::string message;  // why it failed, with the checkpoint to go on from
   Summary summary;
 };
+
+/// The particles of all bodies, or the cells of the gas: what the work of a step is proportional to. And their name, singular.
+std::int64_t count_points(const Simulation& s);
+std::string_view name_of_points(const Simulation& s);
 
 /// Runs a simulation that has been set up from the case.
 RunResult run(const Case& c, Simulation& s, const RunOptions& options);

@@ -44,13 +44,13 @@ double temperature_of(const Gas& gas, const CellPlace& at) {
 
 }  // namespace
 
-std::vector<Field> fields_of(const Gas& gas) {
-  std::vector<Field> fields = {
+std::vector<Field> fields(int dimensions, const std::vector<std::string>& fluids) {
+  std::vector<Field> all = {
       {"density", "kg/m^3", "density", 1,
        [](const Gas& g, const CellPlace& at, int) { return primitive(g, at, Primitive::density); }},
       {"pressure", "Pa", "pressure", 1,
        [](const Gas& g, const CellPlace& at, int) { return primitive(g, at, Primitive::pressure); }},
-      {"velocity", "m/s", "velocity", gas.dimensions(),
+      {"velocity", "m/s", "velocity", dimensions,
        [](const Gas& g, const CellPlace& at, int a) { return primitive(g, at, Primitive::velocity + a); }},
       {"temperature", "K", "temperature of the fluid that fills most", 1,
        [](const Gas& g, const CellPlace& at, int) { return temperature_of(g, at); }},
@@ -58,12 +58,17 @@ std::vector<Field> fields_of(const Gas& gas) {
        [](const Gas& g, const CellPlace& at, int) { return internal_energy_of(g, at) / mass_of(g, at); }},
       {"sound_speed", "m/s", "speed of sound", 1,
        [](const Gas& g, const CellPlace& at, int) { return primitive(g, at, Primitive::sound_speed); }}};
-  for (std::size_t r = 0; gas.fluids.size() > 1 && r < gas.fluids.size(); ++r)
-    fields.push_back(
-        {"fraction_" + gas.fluids[r].name, "1", "part of the volume", 1, [r](const Gas& g, const CellPlace& at, int) {
-           return of_fluid(g, at, r, Content::volume) / content(g, at, Content::room);
-         }});
-  return fields;
+  for (std::size_t r = 0; fluids.size() > 1 && r < fluids.size(); ++r)
+    all.push_back({"fraction_" + fluids[r], "1", "part of the volume", 1, [r](const Gas& g, const CellPlace& at, int) {
+                     return of_fluid(g, at, r, Content::volume) / content(g, at, Content::room);
+                   }});
+  return all;
+}
+
+std::vector<Field> fields_of(const Gas& gas) {
+  std::vector<std::string> fluids;
+  for (const Fluid& fluid : gas.fluids) fluids.push_back(fluid.name);
+  return fields(gas.dimensions(), fluids);
 }
 
 std::optional<CellPlace> find_cell(const Gas& gas, const Vector& position) {

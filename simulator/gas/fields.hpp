@@ -18,6 +18,7 @@ struct Field {
 };
 
 /// density, pressure, velocity, temperature, energy, sound_speed; of several fluids also their fractions of the volume.
+std::vector<Field> fields(int dimensions, const std::vector<std::string>& fluids);
 std::vector<Field> fields_of(const Gas& gas);
 
 /// The cell that holds a position; none outside the box and in other processes.

@@ -101,7 +101,9 @@ LineOut line_out(const Simulation& s, const FigureConfig& figure) {
 
 std::string unit_of_field(const std::string& name) {
   if (const Field* field = find_field(name)) return std::string(field->unit);
-  return name == "sound_speed" ? "m/s" : "1";
+  for (const gas::Field& field : gas::fields(1, {}))
+    if (field.name == name) return field.unit;
+  return "1";  // a fraction of a fluid
 }
 
 LineOut read_reference(const FigureConfig& figure) {

@@ -1,0 +1,67 @@
+// Gas through the programs: a case file is checked, run, stopped and gone on with, and draws its pictures.
+
+#include <gtest/gtest.h>
+
+#include "simulator/case_reader.hpp"
+#include "simulator/commands.hpp"
+#include "simulator/output/run_directory.hpp"
+#include "simulator/run.hpp"
+#include "simulator/setup.hpp"
+#include "tests/command_line.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+fs::path shipped(const std::string& name) {
+  return fs::path(BRISANCE_SOURCE_DIR) / "data/cases" / (name + ".toml");
+}
+
+/// Two fluids, so that the volumes and energies that the equilibrium has shared out have to be kept as well.
+TEST(GasRun, GoesOnFromACheckpointWithTheSameBits) {
+  const fs::path directory = scratch();
+  const Case c =
+      read_case(shipped("water_air_shock_tube"), {"cell_size=10 mm", "output.figures=false", "output.snapshot_interval=50 us"});
+  const auto fresh = [&](const std::string& name) {
+    prepare_directory(directory / name, c, false);
+    return directory / name;
+  };
+  Simulation whole = set_up(c);
+  const RunResult uninterrupted = run(c, whole, {fresh("whole"), {}});
+  ASSERT_EQ(uninterrupted.ending, Ending::done) << uninterrupted.message;
+  ASSERT_GT(whole.step, 60);
+  const fs::path parts = fresh("parts");
+  Simulation first = set_up(c), second = set_up(c), third = set_up(c);
+  EXPECT_EQ(run(c, first, {parts, {}, 17}).ending, Ending::interrupted);
+  EXPECT_EQ(resume(c, second, {parts, {}, 23}).ending, Ending::interrupted);
+  const RunResult resumed = resume(c, third, {parts, {}});
+  ASSERT_EQ(resumed.ending, Ending::done) << resumed.message;
+
+  EXPECT_EQ(third.step, whole.step);
+  EXPECT_TRUE(gas::numbers_of(third.gas) == gas::numbers_of(whole.gas));
+  EXPECT_EQ(text_of(parts / "history.csv"), text_of(directory / "whole" / "history.csv"));
+  for (const char* name : {"gas_000000.vti", "gas_000003.vti"})
+    EXPECT_TRUE(text_of(parts / name) == text_of(directory / "whole" / name)) << name;
+}
+
+TEST(GasRun, IsCheckedBeforeAndDrawnAfter) {
+  const auto call = [](const std::vector<std::string>& words) {
+    std::vector<std::string> all = {"brisance"};
+    all.insert(all.end(), words.begin(), words.end());
+    return call_program(run_command_line, all);
+  };
+  const fs::path directory = scratch() / "run";
+  const std::string file = shipped("cylindrical_explosion").string();
+  const Answer check = call({"check", file, "--set", "cell_size=0.05"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_TRUE(contains(check.out, "400 cells")) << check.out;
+  for (const char* nonsense : {"inf", "nan", "warning", "0.0 MB"}) EXPECT_FALSE(contains(check.out, nonsense)) << check.out;
+  const Answer ran = call({"run", file, "-o", directory.string(), "--set", "cell_size=0.05"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  for (const char* picture : {"energy.png", "field.png", "line_along_x.png", "line_along_the_diagonal.png"})
+    EXPECT_TRUE(fs::exists(directory / picture)) << picture;
+  EXPECT_FALSE(contains(text_of(directory / "log.txt"), "missing")) << text_of(directory / "log.txt");
+  EXPECT_EQ(call({"report", directory.string()}).code, 0);
+}
+
+}  // namespace
+}  // namespace brisance::simulator
