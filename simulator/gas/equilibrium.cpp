@@ -26,13 +26,15 @@ double least_bulk_modulus(const EquationOfState& law, double density) {
 /// One lane, with certainty: the volume that the fluids take at a pressure falls with it, and the pressures they have now
 /// bracket the one sought.
 double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, double room, int l) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low = std::numeric_limits<double>::infinity(), high = -low, least = -low;
   for (std::size_t r = 0; r < fluids.size(); ++r) {
     const double m = shares[r].mass[l], v = shares[r].volume[l];
     if (!(v > least_fraction * room)) continue;
     const double p = eos::pressure(fluids[r].equation_of_state, m / v, shares[r].internal[l] / m);
     low = std::min(low, p), high = std::max(high, p);
+    least = std::max(least, fluids[r].least_pressure);
   }
+  low = std::max(low, std::min(least, high));
   // Specific volume of a fluid that has worked against p: P(1/v, e0 - p (v - v0)) = p. The left side falls with v.
   const auto volume_at = [&](std::size_t r, double p) {
     const double m = shares[r].mass[l], v0 = shares[r].volume[l] / m, e0 = shares[r].internal[l] / m;
@@ -74,25 +76,50 @@ double energy_of(const EquationOfState& law, double density, double pressure) {
   return e;
 }
 
+/// Heat (J) that a fluid holds; of a law that does not tell, what it usually holds.
+Lanes heat_in(const Fluid& fluid, const FluidShare<Lanes>& s) {
+  if (eos::caloric(fluid.equation_of_state) != eos::Caloric::complete) return s.mass * fluid.usual_heat;
+  const Lanes density = select(s.volume > 0.0, s.mass / s.volume, Lanes(fluid.usual_density));
+  return s.internal - s.mass * coldest_energy(fluid, density);
+}
+
 /// Gives heat (J) to the fluids of a cell, by mass. What is taken away, other than rounding, comes from the heat that each has,
-/// or a fluid of little heat would be left with less than none.
+/// or a fluid of little heat would be left with less than none. If one has, a share of the work of the whole cell having been
+/// more than it held, the others warm it.
 void share_heat(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& heat) {
-  std::vector<Lanes> weight;
-  Lanes sum(0.0), gross(0.0);
-  for (const FluidShare<Lanes>& s : shares) weight.push_back(s.mass), gross += abs(s.internal);
+  const std::size_t n = fluids.size();
+  std::vector<Lanes> weight(n);
+  Lanes sum(0.0), gross(0.0), mass(0.0);
+  for (const FluidShare<Lanes>& s : shares) mass += s.mass, gross += abs(s.internal);
   constexpr double rounding = 1e-12;
   const LanesMask taken = heat < -rounding * gross;
-  if (any(taken))
-    for (std::size_t r = 0; r < fluids.size(); ++r) {
-      const FluidShare<Lanes>& s = shares[r];
-      const Lanes density = select(s.volume > 0.0, s.mass / s.volume, Lanes(fluids[r].usual_density));
-      const Lanes thermal = eos::caloric(fluids[r].equation_of_state) == eos::Caloric::complete
-                                ? Lanes(s.internal - s.mass * coldest_energy(fluids[r], density))
-                                : Lanes(s.mass * fluids[r].usual_heat);
-      weight[r] = select(taken, max(thermal, Lanes(0.0)), weight[r]);
-    }
-  for (const Lanes& w : weight) sum += w;
-  for (std::size_t r = 0; r < fluids.size(); ++r) shares[r].internal += heat * weight[r] / max(sum, Lanes(1e-300));
+  for (std::size_t r = 0; r < n; ++r) {
+    weight[r] = shares[r].mass;
+    if (any(taken)) weight[r] = select(taken, max(heat_in(fluids[r], shares[r]), Lanes(0.0)), weight[r]);
+    sum += weight[r];
+  }
+  for (std::size_t r = 0; r < n; ++r) shares[r].internal += heat * weight[r] / max(sum, Lanes(1e-300));
+
+  LanesMask cold(false);
+  Lanes held(0.0), lent(0.0);
+  std::vector<Lanes> lack(n), lends(n);
+  for (std::size_t r = 0; r < n; ++r) {
+    lends[r] = heat_in(fluids[r], shares[r]);
+    const LanesMask here = shares[r].mass > 0.0;
+    lack[r] = select(here & (lends[r] < 0.0), -lends[r], Lanes(0.0));
+    lends[r] = select(here, max(lends[r], Lanes(0.0)), Lanes(0.0));
+    cold |= lack[r] > 0.0;
+    held += lends[r];
+  }
+  if (none(cold)) return;
+  constexpr double warmth = 1e-3;  // of the mean heat of the cell's mass
+  for (std::size_t r = 0; r < n; ++r) {
+    lack[r] = select(lack[r] > 0.0, lack[r] + warmth * held * shares[r].mass / mass, Lanes(0.0));
+    lent += lack[r];
+  }
+  // Lent in proportion; more than there is goes to nobody.
+  const Lanes part = select(cold & (lent < held), lent / max(held, Lanes(1e-300)), Lanes(0.0));
+  for (std::size_t r = 0; r < n; ++r) shares[r].internal += select(part > 0.0, lack[r] - part * lends[r], Lanes(0.0));
 }
 
 struct Largest {
@@ -182,7 +209,7 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
   constexpr std::size_t most = 16;
   std::array<Lanes, most> v, v0, e0, m;
   std::array<LanesMask, most> present;
-  Lanes pressure(0.0), weight(0.0), lowest(1e300), highest(-1e300), stiffest(0.0);
+  Lanes pressure(0.0), weight(0.0), lowest(1e300), highest(-1e300), least(-1e300), stiffest(0.0);
   // Fluids next to without volume are left alone; their lanes compute with the numbers of the first fluid there is.
   for (std::size_t r = 0; r < n; ++r) {
     present[r] = shares[r].volume > least_fraction * room;
@@ -197,9 +224,14 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
     pressure += select(present[r], compliance * at.pressure, Lanes(0.0)), weight += compliance;
     lowest = select(present[r], min(lowest, at.pressure), lowest);
     highest = select(present[r], max(highest, at.pressure), highest);
+    least = select(present[r], max(least, Lanes(fluids[r].least_pressure)), least);
     stiffest = select(present[r], max(stiffest, bulk), stiffest);
   }
   pressure /= weight;
+  // A liquid that pulls stretches a gas beside it, which cannot, to nothing: the gas would find another pressure below zero, at
+  // which it has less than no heat.
+  lowest = max(lowest, min(least, highest));
+  pressure = max(pressure, lowest);
   const Lanes tolerance = 1e-14 * stiffest;
   LanesMask done = highest - lowest <= tolerance;
   constexpr int most_iterations = 15;
@@ -281,6 +313,42 @@ void give_usual_state(Fluid& fluid) {
   fluid.usual_density = eos::density_at(fluid.equation_of_state, atmosphere, warm);
   fluid.usual_energy = eos::energy(fluid.equation_of_state, fluid.usual_density, warm);
   fluid.usual_heat = fluid.usual_energy - eos::energy(fluid.equation_of_state, fluid.usual_density, 0.0);
+  if (eos::caloric(fluid.equation_of_state) != eos::Caloric::complete) return;
+  constexpr double densest = 10.0, sparser = 0.8;  // of the usual density
+  constexpr int densities = 200;
+  fluid.least_pressure = 1e300;
+  for (int n = 0; n < densities; ++n) {
+    const double density = densest * fluid.usual_density * std::pow(sparser, n);
+    const double cold = eos::energy(fluid.equation_of_state, density, 0.0);
+    fluid.least_pressure = std::min(fluid.least_pressure, eos::pressure(fluid.equation_of_state, density, cold));
+  }
+}
+
+bool all_cells_hold_heat(Gas& gas, const CellSet& content) {
+  const int D = gas.dimensions(), fluids = static_cast<int>(gas.fluids.size());
+  std::vector<char> good(gas.cells.mine.size());
+  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
+    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
+    LanesMask all_good(true);
+    for (int k = 0; k < gas.cells.packs(); ++k) {
+      const auto at = [&](int quantity) { return content.at(block, quantity)[k]; };
+      Lanes mass(0.0), square(0.0), cold(0.0);
+      for (int r = 0; r < fluids; ++r) {
+        const int first = Content::fluids(D) + r * gas.fluid_quantities();
+        const Fluid& fluid = gas.fluids[static_cast<std::size_t>(r)];
+        const Lanes own = at(first + Content::mass), volume = at(fluids == 1 ? Content::room : first + Content::volume);
+        mass += own;
+        cold += own * coldest_energy(fluid, Lanes(select(volume > 0.0, own / volume, Lanes(fluid.usual_density))));
+      }
+      for (int a = 0; a < D; ++a) square += at(Content::momentum + a) * at(Content::momentum + a);
+      const LanesMask holds = (at(Content::energy) - 0.5 * square / mass > cold) | !lanes_of(cells_inside(gas.cells, block, k));
+      Lanes& plain = gas.half_step.at(block, HalfStep::plain(D))[k];
+      plain = select(holds, plain, Lanes(1.0));
+      all_good &= holds;
+    }
+    good[i] = all(all_good);
+  });
+  return std::all_of(good.begin(), good.end(), [](char g) { return g != 0; });
 }
 
 void find_equilibrium(Gas& gas) {

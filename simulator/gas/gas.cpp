@@ -36,6 +36,18 @@ void settle(Gas& gas) {
   std::swap(gas.content, gas.moved);
 }
 
+/// Takes the marks of this process's cells away; how many there were.
+std::int64_t forget_plain_cells(Gas& gas) {
+  std::int64_t count = 0;
+  for (const std::int32_t b : gas.cells.mine)
+    for (int k = 0; k < gas.cells.packs(); ++k) {
+      Lanes& plain = gas.half_step.at(static_cast<std::size_t>(b), HalfStep::plain(gas.dimensions()))[k];
+      for (int l = 0; l < 8; ++l) count += plain[l] > 0.0 ? 1 : 0;
+      plain = Lanes(0.0);
+    }
+  return count;
+}
+
 /// Adds up the blocks' numbers, so many a block. Ranks own the blocks in Morton order, so the blocks of all ranks follow each
 /// other as those of one rank would.
 std::vector<double> sum_of_ranks(const std::vector<double>& mine, std::size_t numbers, Domain& domain) {
@@ -49,6 +61,26 @@ std::vector<double> sum_of_ranks(const std::vector<double>& mine, std::size_t nu
   std::vector<double> total;
   for (const CompensatedSum& sum : sums) total.push_back(sum.value());
   return total;
+}
+
+/// The step as it is in `moved`, from what is in `content`; false if a cell does not bear it. Such cells are marked then.
+bool try_step(Gas& gas, double dt, Domain& domain) {
+  clear_step(gas.passages);
+  timed(gas, Phase::half_step, [&] { advance_half_step(gas, dt); });
+  timed(gas, Phase::ghosts, [&] { share_half_step(gas, dt, domain); });
+  const auto all_bear = [&](bool borne) { return domain.maximum(borne ? 0.0 : 1.0) == 0.0; };
+  if (!all_bear(timed(gas, Phase::lagrangian, [&] { return lagrangian_phase(gas, dt); }))) return false;
+  // The order of the axes turns around with every step, so that none is always first.
+  const int D = gas.dimensions();
+  Vector moved{dt, dt, dt};
+  for (int n = 0; n < D; ++n) {
+    const int axis = gas.step % 2 == 0 ? n : D - 1 - n;
+    timed(gas, Phase::ghosts, [&] { share_moved(gas, gas.time + dt, moved, domain); });
+    if (!all_bear(timed(gas, Phase::remap, [&] { return sweep(gas, axis); }))) return false;
+    std::swap(gas.moved, gas.next);
+    moved[static_cast<std::size_t>(axis)] = 0.0;
+  }
+  return all_bear(timed(gas, Phase::equilibrium, [&] { return all_cells_hold_heat(gas, gas.moved); }));
 }
 
 }  // namespace
@@ -93,26 +125,18 @@ double largest_step(const Gas& gas, double courant) {
 }
 
 Outcome advance(Gas& gas, double dt, Domain& domain) {
-  clear_step(gas.passages);
-  timed(gas, Phase::half_step, [&] { advance_half_step(gas, dt); });
-  timed(gas, Phase::ghosts, [&] { share_half_step(gas, dt, domain); });
-  const bool good = timed(gas, Phase::lagrangian, [&] { return lagrangian_phase(gas, dt); });
-  if (domain.maximum(good ? 0.0 : 1.0) > 0.0) return Outcome::rejected;
-  // The order of the axes turns around with every step, so that none is always first.
-  const int D = gas.dimensions();
   const std::int64_t flattened = gas.flattened;
-  Vector moved{dt, dt, dt};
-  for (int n = 0; n < D; ++n) {
-    const int axis = gas.step % 2 == 0 ? n : D - 1 - n;
-    timed(gas, Phase::ghosts, [&] { share_moved(gas, gas.time + dt, moved, domain); });
-    const bool held = timed(gas, Phase::remap, [&] { return sweep(gas, axis); });
-    if (domain.maximum(held ? 0.0 : 1.0) > 0.0) {
-      gas.flattened = flattened;
+  gas.careful = false;
+  constexpr int most_attempts = 3;
+  for (int attempt = 1; !try_step(gas, dt, domain); ++attempt) {
+    gas.flattened = flattened;
+    if (attempt == most_attempts) {
+      forget_plain_cells(gas);
       return Outcome::rejected;
     }
-    std::swap(gas.moved, gas.next);
-    moved[static_cast<std::size_t>(axis)] = 0.0;
+    gas.careful = true;
   }
+  if (gas.careful) gas.plain += forget_plain_cells(gas);
   timed(gas, Phase::ghosts, [&] {
     settle(gas);
     book_step(gas.passages);
@@ -188,7 +212,8 @@ std::vector<double> numbers_of(const Gas& gas) {
                               gas.motion_rate,
                               static_cast<double>(gas.flattened),
                               static_cast<double>(gas.cells.mine.size()),
-                              static_cast<double>(gas.contents())};
+                              static_cast<double>(gas.contents()),
+                              static_cast<double>(gas.plain)};
   // The pressures as well: to find them once more from the contents would change last digits.
   for (const CellSet* set : {&gas.content, &gas.primitive})
     for (const std::int32_t b : gas.cells.mine) {
@@ -213,8 +238,8 @@ void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
     throw std::runtime_error("its gas is of another case");
   const double* next = numbers.data();
   gas.time = next[0], gas.step = static_cast<std::int64_t>(next[1]), gas.wave_rate = next[2], gas.motion_rate = next[3];
-  gas.flattened = static_cast<std::int64_t>(next[4]);
-  next += 7;
+  gas.flattened = static_cast<std::int64_t>(next[4]), gas.plain = static_cast<std::int64_t>(next[7]);
+  next += 8;
   for (CellSet* set : {&gas.content, &gas.primitive})
     for (const std::int32_t b : gas.cells.mine) {
       const int count = set->quantities() * set->packs() * 8;

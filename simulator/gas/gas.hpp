@@ -39,6 +39,7 @@ struct Fluid {
   EquationOfState equation_of_state;
   double usual_density = 1.0, usual_energy = 1.0;  // kg/m^3, J/kg; a state that it can have, for lanes without this fluid
   double usual_heat = 1.0;                         // J/kg, of its energy
+  double least_pressure = -1e300;                  // Pa, at T = 0 and any density
 };
 
 /// Content of a cell, per whole cell, radian or steradian (see Metric). With one fluid its volume and energy are not kept.
@@ -56,10 +57,11 @@ struct Primitive {
   static constexpr int density = 0, pressure = 1, sound_speed = 2, gruneisen = 3, velocity = 4;
   static constexpr int count(int dimensions) { return velocity + dimensions; }
 };
-/// What half a step changes in the Lagrangian frame.
+/// What half a step changes in the Lagrangian frame, and which cells have to do without slopes (1, others 0).
 struct HalfStep {
   static constexpr int pressure = 0, velocity = 1;
-  static constexpr int count(int dimensions) { return 1 + dimensions; }
+  static constexpr int plain(int dimensions) { return 1 + dimensions; }
+  static constexpr int count(int dimensions) { return 2 + dimensions; }
 };
 
 /// What has passed the faces of one block on one side of the box, into it: mass of each fluid (kg), impulse of the pressure and
@@ -114,6 +116,8 @@ struct Gas {
   double motion_rate = 0.0;                                              // 1/s, largest |u|/h of one axis
   std::array<double, static_cast<std::size_t>(Phase::count)> seconds{};  // of wall time, by phase, in this process
   std::int64_t flattened = 0;  // slopes that were taken back so that no cell loses more energy than it has
+  bool careful = false;        // some cells do without slopes in this step, or it would leave them without volume or heat
+  std::int64_t plain = 0;      // how often cells of this process did
 
   bool empty() const { return fluids.empty(); }
   int dimensions() const { return cells.dimensions; }
@@ -136,7 +140,8 @@ void begin(Gas& gas, Domain& domain);
 /// The largest step (s) for a Courant number.
 double largest_step(const Gas& gas, double courant);
 enum class Outcome { done, rejected };
-/// Advances by dt (s). A step that is rejected changes nothing.
+/// Advances by dt (s). What a cell would not bear is tried again with first order there; a step that is rejected changes
+/// nothing.
 Outcome advance(Gas& gas, double dt, Domain& domain);
 Totals totals(const Gas& gas, Domain& domain);
 /// What has come through each side of the box since the start, and last by gravity: mass, impulse, energy (its kinetic part

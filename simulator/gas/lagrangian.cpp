@@ -24,7 +24,7 @@ struct FaceSide {
   Lanes velocity, pressure, density;
 };
 FaceSide face_side(const Pencil& density, const Pencil& pressure, const Pencil& velocity, const Pencil& half_pressure,
-                   const Pencil& half_velocity, std::size_t c, double towards, double half_head) {
+                   const Pencil& half_velocity, std::size_t c, double towards, double half_head, const LanesMask& plain) {
   const Lanes head = Lanes(2.0 * half_head) * density[c];
   FaceSide s;
   s.density = density[c] + towards * slope(density, c);
@@ -32,7 +32,7 @@ FaceSide face_side(const Pencil& density, const Pencil& pressure, const Pencil& 
   s.velocity = velocity[c] + towards * slope(velocity, c) + half_velocity[c];
   // Where the extrapolation nearly empties the cell it is not to be trusted.
   constexpr double least = 1e-3;
-  const LanesMask bad = (s.density < least * density[c]) | ((s.pressure < least * pressure[c]) & (pressure[c] > 0.0));
+  const LanesMask bad = plain | (s.density < least * density[c]) | ((s.pressure < least * pressure[c]) & (pressure[c] > 0.0));
   s.density = select(bad, density[c], s.density);
   s.pressure = select(bad, pressure[c], s.pressure);
   s.velocity = select(bad, velocity[c], s.velocity);
@@ -128,7 +128,8 @@ bool move(Gas& gas, std::size_t block, double dt) {
   for (int axis = 0; axis < D; ++axis) {
     const double half_head = 0.5 * gas.gravity[static_cast<std::size_t>(axis)] * cells.cell_size;
     for (int n = 0; n < Shape::pencils; ++n) {
-      Pencil density, pressure, sound, gruneisen, velocity, half_pressure, half_velocity, speed;
+      Pencil density, pressure, sound, gruneisen, velocity, half_pressure, half_velocity, speed, plain;
+      if (gas.careful) load<D>(cells, gas.half_step, block, HalfStep::plain(D), axis, n, plain);
       load<D>(cells, gas.primitive, block, Primitive::density, axis, n, density);
       load<D>(cells, gas.primitive, block, Primitive::pressure, axis, n, pressure);
       load<D>(cells, gas.primitive, block, Primitive::sound_speed, axis, n, sound);
@@ -149,8 +150,10 @@ bool move(Gas& gas, std::size_t block, double dt) {
       Lanes* swept = gas.swept_faces(block, axis, n);
       for (std::size_t f = 0; f < faces; ++f) {
         const std::size_t l = ring + f - 1, r = ring + f;
-        const FaceSide L = face_side(density, pressure, velocity, half_pressure, half_velocity, l, 0.5, half_head);
-        const FaceSide R = face_side(density, pressure, velocity, half_pressure, half_velocity, r, -0.5, half_head);
+        const LanesMask first_order = gas.careful ? plain[l] + plain[r] > 0.0 : LanesMask(false);
+        const FaceSide L = face_side(density, pressure, velocity, half_pressure, half_velocity, l, 0.5, half_head, first_order);
+        const FaceSide R =
+            face_side(density, pressure, velocity, half_pressure, half_velocity, r, -0.5, half_head, first_order);
         const Lanes shock = 1.0 + 0.5 * max(gruneisen[l], gruneisen[r]);
         const Star s = star(L, R, sound[l], sound[r], shock, sqrt(max(speed[l], speed[r])), gas.least_mach);
         if (axis == 0) metric.area[f] = area_on_the_way(cells, metric.area[f], dt * s.velocity);
@@ -244,7 +247,9 @@ bool move(Gas& gas, std::size_t block, double dt) {
       }
     }
     constexpr double least_room = 0.2;
-    good &= ((moved > least_room * room) & (thermal > 0.0)) | !active;
+    const LanesMask bears = ((moved > least_room * room) & (thermal > 0.0)) | !active;
+    at(gas.half_step, HalfStep::plain(D)) = select(bears, at(gas.half_step, HalfStep::plain(D)), Lanes(1.0));
+    good &= bears;
   }
   return all(good);
 }

@@ -22,17 +22,18 @@ struct Giving {
   std::size_t low, high;  // cells of the pencil
   LanesMask up;           // along the axis: the low cell gives
   Lanes part;
+  Lanes order;  // 0: without slopes, 1
 
   Lanes of(const Pencil& field) const { return select(up, field[low], field[high]); }
   LanesMask of(const std::array<LanesMask, reach>& mask) const { return (up & mask[low]) | ((!up) & mask[high]); }
   /// Mean of a field over what leaves.
-  Lanes leaving(const Pencil& field) const { return of(field) + 0.5 * (1.0 - part) * difference(field, part); }
+  Lanes leaving(const Pencil& field) const { return of(field) + (0.5 * order) * (1.0 - part) * difference(field, part); }
   /// The same of a fluid's field: only some cells have it, and what leaves is a part of its own.
   Lanes leaving(const Pencil& field, const std::array<LanesMask, reach>& present, const Lanes& own_part) const {
     const LanesMask low_side = present[low - 1] & present[low] & present[high];
     const LanesMask high_side = present[low] & present[high] & present[high + 1];
     const LanesMask smooth = (up & low_side) | ((!up) & high_side);
-    return of(field) + select(smooth, 0.5 * (1.0 - own_part) * difference(field, own_part), Lanes(0.0));
+    return of(field) + select(smooth, (0.5 * order) * (1.0 - own_part) * difference(field, own_part), Lanes(0.0));
   }
   Lanes difference(const Pencil& field, const Lanes& what_leaves) const {
     const Lanes ahead = select(up, field[high] - field[low], field[low] - field[high]);
@@ -41,10 +42,21 @@ struct Giving {
   }
 };
 
-Giving giving_at(const Lanes& swept, const Pencil& room, std::size_t face) {
-  Giving g{ring + face - 1, ring + face, swept > 0.0, Lanes(0.0)};
+/// `plain` is there in careful steps.
+Giving giving_at(const Lanes& swept, const Pencil& room, const Pencil* plain, std::size_t face) {
+  Giving g{ring + face - 1, ring + face, swept > 0.0, Lanes(0.0), Lanes(1.0)};
   g.part = abs(swept) / g.of(room);
+  if (plain) g.order = select((*plain)[g.low] + (*plain)[g.high] > 0.0, Lanes(0.0), Lanes(1.0));
   return g;
+}
+
+/// Marks the cells number m of a pencil's lines.
+template <int D>
+void mark_plain(Gas& gas, std::size_t block, int axis, int n, std::size_t m, const LanesMask& cells) {
+  Pencil plain;
+  load_own<D>(gas.half_step, block, HalfStep::plain(D), axis, n, plain);
+  plain[ring + m] = select(cells, Lanes(1.0), plain[ring + m]);
+  store<D>(gas.half_step, block, HalfStep::plain(D), axis, n, plain);
 }
 
 struct Carried {
@@ -70,7 +82,7 @@ Carried carry_momentum(const Giving& giving, const std::array<Donor<D>, reach>& 
   const Lanes cost = 0.125 * part * (1.0 - part) * of(low.density, high.density) * steepness;
   const Lanes heat = max(of(low.energy, high.energy), Lanes(0.0));
   const LanesMask too_steep = cost > most * heat;
-  Lanes offset = of(Lanes(0.5 * (1.0 - part)), Lanes(-0.5 * (1.0 - part)));
+  Lanes offset = giving.order * of(Lanes(0.5 * (1.0 - part)), Lanes(-0.5 * (1.0 - part)));
   if (any(too_steep)) {
     offset = select(too_steep, offset * sqrt(most * heat / max(cost, Lanes(1e-300))), offset);
     for (int l = 0; l < 8; ++l) flattened += too_steep[l] ? 1 : 0;
@@ -93,7 +105,8 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
   constexpr int mass_at = Content::fluids(D) + Content::mass;
   SweepResult result;
   for (int n = 0; n < BlockShape<D>::pencils; ++n) {
-    Pencil room, total, mass, momentum[D], density, energy, velocity[D];
+    Pencil room, total, mass, momentum[D], density, energy, velocity[D], plain;
+    if (gas.careful) load<D>(gas.cells, gas.half_step, block, HalfStep::plain(D), axis, n, plain);
     load<D>(gas.cells, gas.moved, block, Content::room, axis, n, room);
     load<D>(gas.cells, gas.moved, block, Content::energy, axis, n, total);
     load<D>(gas.cells, gas.moved, block, mass_at, axis, n, mass);
@@ -114,7 +127,7 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
     const Lanes* swept = gas.swept_faces(block, axis, n);
     std::array<Lanes, line_faces> dm, dE, dp[D] = {};
     for (std::size_t f = 0; f < line_faces; ++f) {
-      const Giving giving = giving_at(swept[f], room, f);
+      const Giving giving = giving_at(swept[f], room, gas.careful ? &plain : nullptr, f);
       const Lanes leaving = swept[f] * giving.leaving(density);
       dm[f] = leaving;
       const Carried carried = carry_momentum<D>(giving, donors, leaving, f, dp, result.flattened);
@@ -154,7 +167,8 @@ SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
   };
   std::vector<FluidPencils> fluid(fluids);
   for (int n = 0; n < BlockShape<D>::pencils; ++n) {
-    Pencil room, total, momentum[D], mass, energy, velocity[D];
+    Pencil room, total, momentum[D], mass, energy, velocity[D], plain;
+    if (gas.careful) load<D>(gas.cells, gas.half_step, block, HalfStep::plain(D), axis, n, plain);
     load<D>(gas.cells, gas.moved, block, Content::room, axis, n, room);
     load<D>(gas.cells, gas.moved, block, Content::energy, axis, n, total);
     for (int a = 0; a < D; ++a) load<D>(gas.cells, gas.moved, block, Content::momentum + a, axis, n, momentum[a]);
@@ -186,7 +200,7 @@ SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
     const Lanes* swept = gas.swept_faces(block, axis, n);
     std::array<Lanes, line_faces> dE, dp[D] = {};
     for (std::size_t f = 0; f < line_faces; ++f) {
-      const Giving giving = giving_at(swept[f], room, f);
+      const Giving giving = giving_at(swept[f], room, gas.careful ? &plain : nullptr, f);
       const Lanes q = abs(swept[f]);
       // Volumes first: together they are what the face has swept. What the limits leave over goes to the largest. Of a fluid of
       // which there is next to nothing as much leaves as of the cell.
@@ -226,8 +240,11 @@ SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
         at.mass[c] -= at.dm[f + 1] - at.dm[f];
         at.volume[c] -= at.dV[f + 1] - at.dV[f];
         at.internal[c] -= at.dI[f + 1] - at.dI[f];
-        const LanesMask overdrawn = (at.mass[c] < 0.0) | (at.volume[c] < -1e-14 * room[c]);
-        result.good = result.good && none(overdrawn & lanes_inside<D>(gas.cells, block, axis, n, static_cast<int>(f)));
+        const LanesMask overdrawn = ((at.mass[c] < 0.0) | (at.volume[c] < -1e-14 * room[c])) &
+                                    lanes_inside<D>(gas.cells, block, axis, n, static_cast<int>(f));
+        if (none(overdrawn)) continue;
+        mark_plain<D>(gas, block, axis, n, f, overdrawn);
+        result.good = false;
       }
     }
     store<D>(gas.next, block, Content::room, axis, n, room);

@@ -59,6 +59,7 @@ GasBooks gas_books_of(const Simulation& s) {
   GasBooks books;
   for (const gas::Fluid& fluid : s.gas.fluids) books.fluids.push_back(fluid.name);
   books.state = scaled(gas::totals(s.gas, *s.domain)), books.initial = scaled(s.gas.initial);
+  books.plain = s.gas.plain, books.flattened = s.gas.flattened;
   const std::vector<gas::Totals> passed = gas::passed(s.gas, *s.domain);
   for (std::size_t e = 0; e < passed.size(); ++e)
     books.entries.emplace_back(e < s.gas.edges.size() ? s.gas.edges[e].name : "gravity", scaled(passed[e]));

@@ -24,6 +24,7 @@ struct GasBooks {
   std::vector<std::string> fluids;
   gas::Totals state, initial;
   std::vector<std::pair<std::string, gas::Totals>> entries;
+  std::int64_t plain = 0, flattened = 0;  // as in Gas, of this process
 
   /// What the gas holds now that it neither held at the start nor received.
   gas::Totals residual() const;

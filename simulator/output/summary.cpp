@@ -22,6 +22,9 @@ std::string in_words(const GasBooks& books) {
   for (const auto& [name, through] : books.entries)
     if (through.energy != 0.0) row("by " + name, through);
   row("in no book", books.residual());
+  if (books.plain + books.flattened > 0)
+    text += fmt::format("  for the sake of positive energies {} cell-steps were first order, {} slopes flatter\n", books.plain,
+                        books.flattened);
   return text;
 }
 
@@ -45,6 +48,7 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
   all.set("title", s.title).set("ending", s.ending).set("message", s.message).set("time", s.time).set("steps", s.steps);
   const std::string points = s.books.gas ? "cell" : "particle";
   all.set(points + "s", s.particles).set("measures", measures).set("comparison", comparison).set("energy", energy);
+  if (s.books.gas) all.set("first_order_cell_steps", s.books.gas->plain).set("flattened_slopes", s.books.gas->flattened);
   all.set("wall_time", s.wall_time).set(points + "_steps_per_second", s.particle_steps_per_second).set("threads", s.threads);
   replace_file_by_text(path, all.set("versions", versions).text());
 }
