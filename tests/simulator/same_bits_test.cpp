@@ -12,6 +12,7 @@
 #include <string>
 
 #include "models/input/material_reader.hpp"
+#include "simulator/parallel.hpp"
 #include "tests/simulator/by_hand.hpp"
 #include "tests/simulator/virtual_ranks.hpp"
 
@@ -144,6 +145,7 @@ Fingerprint on_threads(const Case& c, int threads, const std::function<void(Simu
   if (prepare) prepare(s);
   go(s, c.dimensions(), before_step);
   omp_set_num_threads(threads_before);
+  EXPECT_GE(s.grid.my_blocks.size(), least_blocks_per_thread * static_cast<std::size_t>(threads)) << "enough to be shared";
   State state;
   add_state(s, state);
   Fingerprint f = fingerprint(state, s);
