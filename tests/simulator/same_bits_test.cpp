@@ -11,7 +11,6 @@
 #include <random>
 #include <string>
 
-#include "models/input/material_reader.hpp"
 #include "simulator/parallel.hpp"
 #include "tests/simulator/by_hand.hpp"
 #include "tests/simulator/virtual_ranks.hpp"
@@ -19,13 +18,9 @@
 namespace brisance::simulator {
 namespace {
 
-// Cases that together use every way in which particles and ranks meet ---------------------------------------------------
+using by_hand::copper;
 
-Material copper() {
-  static const Material read =
-      read_material(std::string(BRISANCE_SOURCE_DIR) + "/data/materials/copper_ofhc_johnson_cook.toml");
-  return read;
-}
+// Cases that together use every way in which particles and ranks meet ---------------------------------------------------
 
 constexpr double bar_radius = 3.81e-3, bar_length = 7e-3, bar_speed = 190.0;
 
