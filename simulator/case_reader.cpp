@@ -1,6 +1,7 @@
 #include "simulator/case_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@
 #include "models/input/table_reader.hpp"
 #include "simulator/gas/fields.hpp"
 #include "simulator/keys.hpp"
+#include "simulator/output/gauges.hpp"
 #include "simulator/output/line_out.hpp"
 #include "simulator/solid/shapes.hpp"
 #include "simulator/table.hpp"
@@ -304,6 +306,7 @@ class CaseReader : public KeyReader<CaseReader> {
     require_own_name(in, body, others);
     require_file_name(in, body.name);
     check_extent(in, body);
+    for (const BodyConfig& other : others) check_overlap(in, body, other);
     check_velocity(in, body.velocity);
     if (body.porosity && !body.material.material.porosity)
       in.problem("porosity", "it would be ignored: the material has no [porosity] table");
@@ -312,8 +315,7 @@ class CaseReader : public KeyReader<CaseReader> {
   }
 
   void check_extent(TableReader& in, const BodyConfig& body) {
-    Bounds extent = bounds(*body.shape);
-    if (case_.geometry == Geometry::axisymmetric) extent.lower[0] = std::max(extent.lower[0], 0.0);
+    const Bounds extent = bounds(*body.shape, case_.geometry);
     for (std::size_t k = 0; k < dimensions(); ++k) {
       const double width = extent.upper[k] - extent.lower[k];
       if (!(width > 0.0)) return in.problem("shape", "it fills nothing: its parts do not meet");
@@ -321,6 +323,25 @@ class CaseReader : public KeyReader<CaseReader> {
         return in.problem("shape", fmt::format("along {} it is {} wide, less than one cell of {}", axis_names[k],
                                                in_metres(width), in_metres(case_.cell_size)));
     }
+  }
+
+  /// What is filled twice would weigh twice and push itself apart.
+  void check_overlap(TableReader& in, const BodyConfig& body, const BodyConfig& other) {
+    if (!body.shape || !other.shape || !(case_.cell_size > 0.0)) return;
+    const Shape both{Intersection{{body.shape, other.shape}}};
+    const int particles = std::max(body.particles_per_direction, other.particles_per_direction);
+    const double spacing = case_.cell_size / (particles * samples_per_direction);
+    const double shared = volume(both, case_.geometry, spacing);
+    if (shared == 0.0) return;
+    const Bounds where = bounds(both, case_.geometry);
+    const auto corner = [&](const Vector& x) {
+      return fmt::format("({:.6g})", fmt::join(std::span(x).first(dimensions()), ", "));
+    };
+    in.problem("shape",
+               fmt::format("it fills about {:.2g} % of solid {} as well, between {} and {} m; two bodies are not in one "
+                           "place: move one, or cut it by a difference",
+                           100.0 * shared / volume(*other.shape, case_.geometry, spacing), in_quotes(other.name),
+                           corner(where.lower), corner(where.upper)));
   }
 
   void check_velocity(TableReader& in, const InitialVelocity& velocity) {
@@ -394,22 +415,24 @@ class CaseReader : public KeyReader<CaseReader> {
                       in_metres(farthest), in_metres(most_cells * case_.cell_size)));
   }
 
+  /// Whether a shape fills any part of a box that lies within its bounds: those of a shape that was cut may be too wide.
+  bool fills_part_of(const Shape& shape, const Bounds& box) {
+    constexpr int samples = 24;
+    return filled_fraction(shape, case_.geometry, box.lower, box.upper, samples) > 0.0;
+  }
+
   /// Reports if a body reaches beyond the boundary.
   void check_side(TableReader& in, const BoundaryConfig& boundary, std::size_t axis, const BodyConfig& body) {
     if (!body.shape) return;
     const bool above = boundary.side == Side::above;
-    const Bounds extent = bounds(*body.shape);
+    const Bounds extent = bounds(*body.shape, case_.geometry);
     Bounds beyond = extent;
-    // In the axisymmetric geometry the shape reaches to negative r, where there is nothing.
-    if (case_.geometry == Geometry::axisymmetric) beyond.lower[0] = std::max(beyond.lower[0], 0.0);
     const double least = round_off * case_.cell_size;
     if (above)
       beyond.upper[axis] = std::min(beyond.upper[axis], boundary.position - least);
     else
       beyond.lower[axis] = std::max(beyond.lower[axis], boundary.position + least);
-    if (!(beyond.lower[axis] < beyond.upper[axis])) return;
-    constexpr int samples = 24;  // the bounds of a shape that was cut may be too wide: look whether anything is there
-    if (filled_fraction(*body.shape, case_.geometry, beyond.lower, beyond.upper, samples) == 0.0) return;
+    if (!(beyond.lower[axis] < beyond.upper[axis]) || !fills_part_of(*body.shape, beyond)) return;
     in.problem("side", fmt::format("solid \"{}\" reaches to {} = {}, {} the boundary at {}; the bodies must be {} it",
                                    body.name, axis_names[axis], in_metres((above ? extent.lower : extent.upper)[axis]),
                                    above ? "below" : "above", in_metres(boundary.position), above ? "above" : "below"));
@@ -509,6 +532,7 @@ class CaseReader : public KeyReader<CaseReader> {
     check_surface(in, gauge);
     if (!gauge.body.empty()) require_body(in, gauge.body);
     if (case_.gas) return check_gas_gauge(in, gauge);
+    check_place(in, gauge);
     for (const std::string& field : gauge.fields)
       if (std::find(gauge_fields.begin(), gauge_fields.end(), field) == gauge_fields.end())
         in.problem("fields", in_quotes(field) + " cannot be recorded; it must be one of " + listed(gauge_fields) +
@@ -523,6 +547,51 @@ class CaseReader : public KeyReader<CaseReader> {
     } else if (gauge.from == gauge.to) {
       in.problem("to", "it is where `from` is; only a point has no extent");
     }
+  }
+
+  /// A gauge that would never see any material.
+  void check_place(TableReader& in, const GaugeConfig& gauge) {
+    const bool extended = gauge.kind != GaugeKind::point;
+    Bounds place{gauge.from, gauge.from};
+    for (std::size_t k = 0; extended && k < dimensions(); ++k)
+      place.lower[k] = std::min(gauge.from[k], gauge.to[k]), place.upper[k] = std::max(gauge.from[k], gauge.to[k]);
+    const auto sought_along = [&](std::size_t axis) {
+      return gauge.kind == GaugeKind::surface && gauge.axis && static_cast<std::size_t>(*gauge.axis) == axis;
+    };
+    if (case_.geometry == Geometry::axisymmetric && place.upper[0] < 0.0 && !sought_along(0))
+      return in.problem("from", "r = " + in_metres(place.upper[0]) + "; a radius is not negative");
+    for (const BoundaryConfig& b : case_.boundaries) {
+      const auto axis = static_cast<std::size_t>(b.axis);
+      if (b.side == Side::above ? place.upper[axis] >= b.position : place.lower[axis] <= b.position) continue;
+      if (!sought_along(axis))
+        return in.problem("from", fmt::format("it lies beyond the boundary {} at {} = {}, where there is never any material",
+                                              in_quotes(b.name), axis_names[axis], in_metres(b.position)));
+    }
+    if (!gauge.moves.value_or(true) || gauge.kind == GaugeKind::surface || case_.bodies.empty()) return;
+    const bool starts_in_material = std::any_of(case_.bodies.begin(), case_.bodies.end(), [&](const BodyConfig& body) {
+      return body.shape && (gauge.body.empty() || body.name == gauge.body) && is_near(*body.shape, gauge, place);
+    });
+    if (!starts_in_material)
+      in.problem("from", fmt::format("{} is more than a cell away from {}; what moves with the material starts in it: give "
+                                     "another place, or moves = false",
+                                     extended ? "all of it" : "it",
+                                     gauge.body.empty() ? "all solids" : "solid " + in_quotes(gauge.body)));
+  }
+
+  /// Whether a shape fills anything within a cell of a gauge's place.
+  bool is_near(const Shape& shape, const GaugeConfig& gauge, const Bounds& place) {
+    const Bounds extent = bounds(shape, case_.geometry);
+    const auto near = [&](Bounds box) {
+      for (std::size_t k = 0; k < dimensions(); ++k) {
+        box.lower[k] = std::max(box.lower[k] - case_.cell_size, extent.lower[k]);
+        box.upper[k] = std::min(box.upper[k] + case_.cell_size, extent.upper[k]);
+        if (!(box.lower[k] < box.upper[k])) return false;
+      }
+      return fills_part_of(shape, box);
+    };
+    if (gauge.kind == GaugeKind::plane) return near(place);
+    const std::vector<Vector> places = places_of(gauge, case_.cell_size);
+    return std::any_of(places.begin(), places.end(), [&](const Vector& x) { return near({x, x}); });
   }
 
   void check_gas_gauge(TableReader& in, GaugeConfig& gauge) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "simulator/run.hpp"
+#include "simulator/set_up_warnings.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/thickness.hpp"
 #include "simulator/time_step.hpp"
@@ -17,13 +18,12 @@ namespace {
 constexpr double least_cells = 4.0;
 
 std::vector<std::string> warnings_of(const Case& c, const Simulation& s, double first_step) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = set_up_warnings(c);
   for (const BodyConfig& body : c.bodies) {
     if (const auto thin = thinnest_part(c, *body.shape, least_cells * c.cell_size))
       warnings.push_back(
           fmt::format("{}: near ({:.4g}, {:.4g}, {:.4g}) m it is {:.2g} cells thick, fewer than {:g}: it will bend and neck "
-                      "too easily; take "
-                      "smaller cells",
+                      "too easily; take smaller cells",
                       body.name, thin->place[0], thin->place[1], thin->place[2], thin->thickness / c.cell_size, least_cells));
     if (body.particles_per_direction < 2)
       warnings.push_back(fmt::format("{}: one particle per cell and direction: gaps open at small strains", body.name));
@@ -42,7 +42,7 @@ std::vector<std::string> warnings_of(const Case& c, const Simulation& s, double 
   if (!c.bodies.empty() && fastest == 0.0 && c.loads.empty() && dot(c.gravity, c.gravity) == 0.0 &&
       std::none_of(c.boundaries.begin(), c.boundaries.end(),
                    [](const BoundaryConfig& b) { return b.kind == BoundaryKind::velocity; }))
-    warnings.push_back("nothing moves: no body has a velocity, and there is no load, no gravity and no moving boundary");
+    warnings.emplace_back("nothing moves: no body has a velocity, and there is no load, no gravity and no moving boundary");
   return warnings;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "simulator/output/extensive.hpp"
 #include "simulator/output/fields.hpp"
 
 namespace brisance::simulator {
@@ -56,18 +57,20 @@ void check_gas(const GateConfig& limits, const GasBooks& books, const Simulation
     for (const double m : through.mass) mass += std::abs(m);
   }
   for (const double m : residual.mass)
-    require("residual", "mass of gas that is in no book", std::abs(m), limits.residual * mass, "kg");
-  require("residual", "energy of gas that is in no book", std::abs(residual.energy), limits.residual * energy, "J");
+    require("residual", "mass of gas that is in no book", std::abs(m), limits.residual * mass, Extensive::mass);
+  require("residual", "energy of gas that is in no book", std::abs(residual.energy), limits.residual * energy,
+          Extensive::energy);
   if (is_round(s.geometry)) return;
   require("residual", "momentum of gas that is in no book", magnitude(residual.momentum),
-          limits.residual * std::sqrt(2.0 * mass * energy), "kg m/s");
+          limits.residual * std::sqrt(2.0 * mass * energy), Extensive::momentum);
 }
 
 }  // namespace
 
 void check_gates(const GateConfig& limits, const Simulation& s, const Books& books) {
-  const auto require = [&](std::string_view gate, std::string_view what, double value, double limit, std::string_view unit) {
+  const auto require = [&](std::string_view gate, std::string_view what, double value, double limit, Extensive quantity) {
     if (value <= limit) return;
+    const std::string_view unit = unit_of(quantity, s.geometry).text;
     throw GateExceeded(fmt::format("gate {}: {} is {:.6g} {}, {:.6g} {} at most is allowed; step {}, time {:.6g} s", gate, what,
                                    value, unit, limit, unit, s.step, s.time));
   };
@@ -78,17 +81,18 @@ void check_gates(const GateConfig& limits, const Simulation& s, const Books& boo
   // Energies of the particles are kept as totals: every step rounds them.
   const double rounding =
       std::numeric_limits<double>::epsilon() * std::abs(b.internal.total) * std::sqrt(static_cast<double>(s.step + 1));
-  require("residual", "energy that is in no book", b.residual, limits.residual * energy + rounding, "J");
+  require("residual", "energy that is in no book", b.residual, limits.residual * energy + rounding, Extensive::energy);
   double momentum = std::sqrt(2.0 * (b.internal.mass + books.outflow_mass) * energy) + magnitude(books.external.momentum);
   for (const auto& [name, done] : books.boundaries) momentum += magnitude(done.momentum);
-  require("residual", "momentum that is in no book", magnitude(b.momentum_residual), limits.residual * momentum, "kg m/s");
+  require("residual", "momentum that is in no book", magnitude(b.momentum_residual), limits.residual * momentum,
+          Extensive::momentum);
   require("residual", "angular momentum that is in no book", magnitude(b.angular_momentum_residual),
-          limits.residual * momentum * reach(s), "kg m^2/s");
+          limits.residual * momentum * reach(s), Extensive::angular_momentum);
   require("residual", "momentum that the way between particles and grid has made",
-          magnitude(unmirrored(s, books.transfer.momentum)), limits.residual * momentum, "kg m/s");
+          magnitude(unmirrored(s, books.transfer.momentum)), limits.residual * momentum, Extensive::momentum);
   require("residual", "momentum that internal forces have made", magnitude(unmirrored(s, books.internal_force.momentum)),
-          limits.residual * momentum, "kg m/s");
-  require("numerical", "energy in numerical books", std::abs(b.numerical()), limits.numerical * energy, "J");
+          limits.residual * momentum, Extensive::momentum);
+  require("numerical", "energy in numerical books", std::abs(b.numerical()), limits.numerical * energy, Extensive::energy);
   check_fastest(limits.fastest, s);
 }
 

@@ -1,7 +1,9 @@
 // brisance: bodies of metal under impact, by the material point method.
 
 #include "simulator/commands.hpp"
+#include "simulator/parallel.hpp"
 
 int main(int argc, char** argv) {
+  brisance::simulator::let_waiting_threads_sleep(argv);
   return brisance::simulator::run_command_line(argc, argv);
 }

@@ -2,10 +2,16 @@
 // The one way in which work is shared by threads. Which thread does which block has no influence on any result: every block
 // writes only what is its own.
 
+#include <omp.h>
+
 #include <cstddef>
 #include <exception>
 
 namespace brisance::simulator {
+
+/// Fewer blocks than this for each thread are done by one: to wake the others, and to wait until the last of them was given a
+/// core, takes longer.
+inline constexpr std::size_t least_blocks_per_thread = 2;
 
 /// Calls f(i) for i in [0, count), in any order and at the same time. What f throws is rethrown when all are done: that of the
 /// lowest i, so that it does not depend on the threads either.
@@ -13,7 +19,8 @@ template <class F>
 void parallel_for_blocks(std::size_t count, F&& f) {
   std::exception_ptr first;
   std::size_t thrower = count;
-#pragma omp parallel for schedule(dynamic, 1)
+  const bool worth_sharing = count >= least_blocks_per_thread * static_cast<std::size_t>(omp_get_max_threads());
+#pragma omp parallel for schedule(dynamic, 1) if (worth_sharing)
   for (std::size_t i = 0; i < count; ++i) {
     try {
       f(i);
@@ -24,5 +31,11 @@ void parallel_for_blocks(std::size_t count, F&& f) {
   }
   if (first) std::rethrow_exception(first);
 }
+
+/// Makes threads that wait sleep instead of spin: where there are more threads than free cores, those that spin keep those that
+/// work from their core. The OpenMP library reads how to wait before main() begins, so the program starts itself anew with
+/// OMP_WAIT_POLICY=passive, unless the user has said how to wait. To be called first in main(); returns if all is well, or if
+/// nothing can be done about it.
+void let_waiting_threads_sleep(char** argv);
 
 }  // namespace brisance::simulator

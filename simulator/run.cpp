@@ -19,6 +19,7 @@
 #include "simulator/output/grid_snapshot.hpp"
 #include "simulator/output/run_directory.hpp"
 #include "simulator/output/snapshot.hpp"
+#include "simulator/set_up_warnings.hpp"
 #include "simulator/solid/stress.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
@@ -70,6 +71,7 @@ class Run {
 
   RunResult begin() {
     log_.line(fmt::format("{}: {} {}s, {} threads", case_.title, count_points(s_), name_of_points(s_), omp_get_max_threads()));
+    for (const std::string& warning : set_up_warnings(case_)) log_.line("warning: " + warning);
     return guarded([&] {
       history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), 0);
       add_row();

@@ -33,13 +33,11 @@ struct Lattice {
   std::array<int, 3> first{}, count{1, 1, 1};
 
   Lattice(const Case& c, const BodyConfig& body) : spacing(c.cell_size / body.particles_per_direction) {
-    const Bounds box = bounds(*body.shape);
+    const Bounds box = bounds(*body.shape, c.geometry);
     constexpr double round_off = 1e-9;
     for (int a = 0; a < c.dimensions(); ++a) {
       const auto k = static_cast<std::size_t>(a);
-      double lower = box.lower[k];
-      if (c.geometry == Geometry::axisymmetric && a == 0) lower = std::max(lower, 0.0);
-      first[k] = static_cast<int>(std::floor(lower / spacing + round_off));
+      first[k] = static_cast<int>(std::floor(box.lower[k] / spacing + round_off));
       count[k] = std::max(static_cast<int>(std::ceil(box.upper[k] / spacing - round_off)) - first[k], 0);
     }
   }

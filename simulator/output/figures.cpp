@@ -10,6 +10,7 @@
 #include "models/input/csv.hpp"
 #include "models/programs/figure.hpp"
 #include "simulator/gas/fields.hpp"
+#include "simulator/output/extensive.hpp"
 #include "simulator/output/fields.hpp"
 #include "simulator/output/line_out.hpp"
 #include "simulator/output/measures.hpp"
@@ -25,7 +26,7 @@ struct Scale {
   std::string unit;  // "" of a number without one
 };
 Scale scale_for(std::string_view unit, double largest) {
-  constexpr std::array prefixed = {"s", "m", "J", "Pa"};
+  constexpr std::array prefixed = {"s", "m", "J", "J/m", "J/m^2", "Pa"};
   if (unit == "1") return {};
   Scale scale{1.0, std::string(unit)};
   if (std::find(prefixed.begin(), prefixed.end(), unit) == prefixed.end() || !(largest > 0.0)) return scale;
@@ -69,11 +70,11 @@ bool is_mirrored(const Simulation& s, int axis) {
 
 /// Curves against time. Those that would lie on the axis are not drawn; the title tells their largest values, unless they are
 /// zero all the time.
-Panel against_time(const std::string& title, const std::vector<double>& time, std::vector<Curve> curves) {
+Panel against_time(const std::string& title, const std::vector<double>& time, std::vector<Curve> curves, Unit unit) {
   const Scale times = scale_for("s", largest(time));
   double most = 0.0;
   for (const Curve& curve : curves) most = std::max(most, largest(curve.y));
-  const Scale energies = scale_for("J", most);
+  const Scale energies = scale_for(unit.text, most);
   Panel panel;
   std::string small;
   constexpr double visible = 0.005;  // a pixel or two
@@ -81,7 +82,7 @@ Panel against_time(const std::string& title, const std::vector<double>& time, st
     const double peak = largest(curve.y);
     if (peak < visible * most || peak == 0.0) {
       if (peak > 0.0)
-        small += fmt::format("{}{} {}", small.empty() ? "; not drawn: " : ", ", curve.title, in_words(peak, "J", 2));
+        small += fmt::format("{}{} {}", small.empty() ? "; not drawn: " : ", ", curve.title, in_words(peak, unit.text, 2));
       continue;
     }
     curve.x = scaled(time, times.per_si), curve.y = scaled(std::move(curve.y), energies.per_si);
@@ -95,8 +96,9 @@ Panel against_time(const std::string& title, const std::vector<double>& time, st
 
 void draw_energy(const Case& c, const Path& directory) {
   const CsvFile history = CsvFile::load(directory / "history.csv");
+  const Unit unit = unit_of(Extensive::energy, c.geometry);
   const auto curve = [&](const std::string& column, const std::string& title, int colour, Mark mark = Mark::line) {
-    return Curve{title, {}, history.numbers(column, Unit::J), mark, colour};
+    return Curve{title, {}, history.numbers(column, unit), mark, colour};
   };
   const std::vector<double> time = history.numbers("time", Unit::s);
   // The internal energy often equals what it is made of: it is dashed, so that both are seen.
@@ -105,25 +107,27 @@ void draw_energy(const Case& c, const Path& directory) {
       {curve("kinetic_energy", "kinetic", 0), curve("plastic_work", "plastic work", 2),
        curve("external_work", "work of loads", 3), curve("boundary_work", "work of boundaries", 4),
        curve("friction_work", "friction", 6), curve("viscous_work", "artificial viscosity", 5),
-       curve("outflow_energy", "outflow", 7), curve("internal_energy_change", "internal, change", 1, Mark::dashed)});
-  Panel numerical =
-      against_time("Numerical books", time,
-                   {curve("transfer_energy", "transfer", 0), curve("filter_energy", "filter", 1),
-                    curve("stress_timing_energy", "stress timing", 2), curve("energy_residual", "in no book", 6)});
+       curve("outflow_energy", "outflow", 7), curve("internal_energy_change", "internal, change", 1, Mark::dashed)},
+      unit);
+  Panel numerical = against_time("Numerical books", time,
+                                 {curve("transfer_energy", "transfer", 0), curve("filter_energy", "filter", 1),
+                                  curve("stress_timing_energy", "stress timing", 2), curve("energy_residual", "in no book", 6)},
+                                 unit);
   draw({c.title, {std::move(physical), std::move(numerical)}, 1, 900, 380}, directory / "energy.png");
 }
 
 void draw_gas_energy(const Case& c, const Simulation& s, const Path& directory) {
   const CsvFile history = CsvFile::load(directory / "history.csv");
   const std::vector<double> time = history.numbers("time", Unit::s);
+  const Unit unit = unit_of(Extensive::energy, c.geometry);
   const auto curve = [&](const std::string& column, const std::string& title, int colour) {
-    return Curve{title, {}, history.numbers(column, Unit::J), Mark::line, colour};
+    return Curve{title, {}, history.numbers(column, unit), Mark::line, colour};
   };
   std::vector<Curve> curves = {curve("gas_energy", "total", 0), curve("gas_kinetic_energy", "kinetic", 1)};
   int colour = 2;
   for (const gas::Edge& edge : s.gas.edges) curves.push_back(curve(edge.name + "_energy", "through " + edge.name, colour++));
   curves.push_back(curve("gas_residual_energy", "in no book", 7));
-  draw({c.title, {against_time("Energy of the gas", time, std::move(curves))}, 1, 900, 380}, directory / "energy.png");
+  draw({c.title, {against_time("Energy of the gas", time, std::move(curves), unit)}, 1, 900, 380}, directory / "energy.png");
 }
 
 /// Half a particle in units of gnuplot's point size, on a panel so many pixels wide that shows so many metres.

@@ -31,15 +31,6 @@ double spline(double u) {
   return u < 0.5 ? 0.75 - u * u : u < 1.5 ? 0.5 * (1.5 - u) * (1.5 - u) : 0.0;
 }
 
-/// Samples about a cell apart.
-std::vector<Vector> samples(const GaugeConfig& g, double cell_size) {
-  if (g.kind != GaugeKind::line) return {g.from};
-  const int parts = std::clamp(static_cast<int>(std::lround(distance(g.from, g.to) / cell_size)), 1, 100);
-  std::vector<Vector> places;
-  for (int i = 0; i <= parts; ++i) places.push_back(g.from + (static_cast<double>(i) / parts) * (g.to - g.from));
-  return places;
-}
-
 /// A sum of values with weights.
 struct Mean {
   std::vector<double> sum;
@@ -58,6 +49,14 @@ struct Mean {
 };
 
 }  // namespace
+
+std::vector<Vector> places_of(const GaugeConfig& g, double cell_size) {
+  if (g.kind != GaugeKind::line) return {g.from};
+  const int parts = std::clamp(static_cast<int>(std::lround(distance(g.from, g.to) / cell_size)), 1, 100);
+  std::vector<Vector> places;
+  for (int i = 0; i <= parts; ++i) places.push_back(g.from + (static_cast<double>(i) / parts) * (g.to - g.from));
+  return places;
+}
 
 template <class F>
 void Gauges::for_each_particle(const Simulation& s, const GaugeConfig& config, F&& f) {
@@ -80,7 +79,8 @@ Gauges::Gauges(const Case& c, const Simulation& start) : dimensions_(start.dimen
       if (!field) throw std::invalid_argument(fmt::format("gauge {}: there is no field \"{}\"", config.name, name));
       gauge.fields.push_back(field);
     }
-    if (config.kind == GaugeKind::point || config.kind == GaugeKind::line) gauge.places = samples(config, start.grid.cell_size);
+    if (config.kind == GaugeKind::point || config.kind == GaugeKind::line)
+      gauge.places = places_of(config, start.grid.cell_size);
     if (config.moves.value_or(true) && !gauge.places.empty()) {
       for (const Vector& place : gauge.places) {
         Followed nearest{0, 0};
@@ -116,7 +116,7 @@ void Gauges::watch_gas(Gauge gauge, const Simulation& start) {
   for (const std::string& name : gauge.config.fields)
     gauge.gas_fields.push_back(
         *std::find_if(known.begin(), known.end(), [&](const gas::Field& field) { return field.name == name; }));
-  gauge.places = samples(gauge.config, start.grid.cell_size);
+  gauge.places = places_of(gauge.config, start.grid.cell_size);
   for (std::size_t i = 0; i < gauge.places.size(); ++i)
     for (const gas::Field& field : gauge.gas_fields)
       for (int a = 0; a < field.components; ++a)

@@ -16,6 +16,9 @@ struct HistoryColumn {
   std::string name, unit;
 };
 
+/// Where a point, or a line about a cell apart, looks.
+std::vector<Vector> places_of(const GaugeConfig& gauge, double cell_size);
+
 class Gauges {
  public:
   /// Finds the particles that moving gauges follow, in a simulation as set up.

@@ -9,12 +9,12 @@
 #include <cstdint>
 #include <fstream>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <system_error>
 
 #include "models/programs/files.hpp"
 #include "simulator/gas/fields.hpp"
+#include "simulator/output/extensive.hpp"
 #include "simulator/solid/motion.hpp"
 #include "simulator/solid/nodes.hpp"
 #include "simulator/solid/transfer.hpp"
@@ -168,8 +168,7 @@ ImageData solid_image(Simulation& s) {
         fmt::format("output.grid: the box around the bodies has {:.3g} nodes; {:.3g} at most are written; set it to false",
                     points, most_points));
 
-  // The books of the axisymmetric geometry are per radian.
-  const double whole = s.geometry == Geometry::axisymmetric ? 2.0 * std::numbers::pi : 1.0;
+  const double whole = whole_of(s.geometry);
   for (int field = 0; field < grid.fields; ++field) {
     const std::string suffix = grid.fields > 1 ? fmt::format("_{}", field) : "";
     ImageField masses{"mass" + suffix, 1, std::vector<double>(image.points())},

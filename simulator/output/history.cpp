@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <numbers>
 #include <stdexcept>
 #include <system_error>
 
 #include "models/programs/files.hpp"
+#include "simulator/output/extensive.hpp"
 #include "simulator/solid/motion.hpp"
 #include "simulator/solid/stress.hpp"
 
@@ -20,19 +20,6 @@ namespace {
 }
 
 constexpr std::string_view first_columns = "time [s],time_step [s]";
-
-/// The books of round geometries are per radian or steradian.
-double whole_of(Geometry geometry) {
-  switch (geometry) {
-    case Geometry::axisymmetric:
-    case Geometry::cylindrical_1d:
-      return 2.0 * std::numbers::pi;
-    case Geometry::spherical_1d:
-      return 4.0 * std::numbers::pi;
-    default:
-      return 1.0;
-  }
-}
 
 }  // namespace
 
@@ -68,17 +55,19 @@ GasBooks gas_books_of(const Simulation& s) {
 
 /// The columns of the gas. Along a radius momentum is no sum that could be kept.
 std::vector<BookEntry> entries_of(const GasBooks& books, Geometry geometry) {
+  const Unit mass = unit_of(Extensive::mass, geometry), energy = unit_of(Extensive::energy, geometry);
   std::vector<BookEntry> entries;
   const std::size_t first = is_round(geometry) ? 1 : 0, last = static_cast<std::size_t>(number_of_dimensions(geometry));
   const auto add = [&](const std::string& name, const gas::Totals& t, std::string_view momentum) {
     for (std::size_t r = 0; r < t.mass.size(); ++r)
-      entries.push_back({name + "_mass" + (t.mass.size() > 1 ? "_" + books.fluids[r] : ""), "kg", t.mass[r]});
+      entries.push_back({name + "_mass" + (t.mass.size() > 1 ? "_" + books.fluids[r] : ""), mass, t.mass[r]});
     for (std::size_t a = first; a < last; ++a)
-      entries.push_back({fmt::format("{}_{}_{}", name, momentum, "xyz"[a]), "kg m/s", t.momentum[a]});
-    entries.push_back({name + "_energy", "J", t.energy});
+      entries.push_back(
+          {fmt::format("{}_{}_{}", name, momentum, "xyz"[a]), unit_of(Extensive::momentum, geometry), t.momentum[a]});
+    entries.push_back({name + "_energy", energy, t.energy});
   };
   add("gas", books.state, "momentum");
-  entries.push_back({"gas_kinetic_energy", "J", books.state.kinetic});
+  entries.push_back({"gas_kinetic_energy", energy, books.state.kinetic});
   for (const auto& [name, through] : books.entries)
     if (name != "gravity" || through.energy != 0.0 || through.momentum != Vector{}) add(name, through, "impulse");
   add("gas_residual", books.residual(), "momentum");
@@ -88,7 +77,6 @@ std::vector<BookEntry> entries_of(const GasBooks& books, Geometry geometry) {
 }  // namespace
 
 Books books_of(const Simulation& s) {
-  // The books of the axisymmetric geometry are per radian.
   const double whole = whole_of(s.geometry);
   const Ledger& ledger = s.ledger;
   Books books;
@@ -117,34 +105,36 @@ Books books_of(const Simulation& s) {
 std::vector<BookEntry> entries_of(const Books& books) {
   if (books.gas) return entries_of(*books.gas, books.geometry);
   const Balance& b = books.balance;
-  std::vector<BookEntry> entries = {{"kinetic_energy", "J", b.kinetic},
-                                    {"internal_energy", "J", b.internal.total},
-                                    {"internal_energy_change", "J", b.internal.total - books.initial_internal},
-                                    {"thermal_energy", "J", b.internal.thermal},
-                                    {"elastic_shear_energy", "J", b.internal.elastic},
-                                    {"stored_cold_work", "J", b.internal.stored_cold_work()},
-                                    {"cold_energy", "J", b.internal.cold()},
-                                    {"stress_work", "J", b.internal.stress_work},
-                                    {"plastic_work", "J", b.internal.plastic_work},
-                                    {"plastic_heat", "J", b.internal.plastic_heat},
-                                    {"viscous_work", "J", b.internal.viscous_work},
-                                    {"external_work", "J", b.external},
-                                    {"boundary_work", "J", b.boundary},
-                                    {"friction_work", "J", b.friction},
-                                    {"outflow_energy", "J", b.outflow},
-                                    {"outflow_mass", "kg", books.outflow_mass},
-                                    {"transfer_energy", "J", b.transfer},
-                                    {"filter_energy", "J", b.filter},
-                                    {"stress_timing_energy", "J", b.stress_timing},
-                                    {"energy_residual", "J", b.residual},
-                                    {"mass", "kg", b.internal.mass}};
+  const Unit mass = unit_of(Extensive::mass, books.geometry), energy = unit_of(Extensive::energy, books.geometry);
+  std::vector<BookEntry> entries = {{"kinetic_energy", energy, b.kinetic},
+                                    {"internal_energy", energy, b.internal.total},
+                                    {"internal_energy_change", energy, b.internal.total - books.initial_internal},
+                                    {"thermal_energy", energy, b.internal.thermal},
+                                    {"elastic_shear_energy", energy, b.internal.elastic},
+                                    {"stored_cold_work", energy, b.internal.stored_cold_work()},
+                                    {"cold_energy", energy, b.internal.cold()},
+                                    {"stress_work", energy, b.internal.stress_work},
+                                    {"plastic_work", energy, b.internal.plastic_work},
+                                    {"plastic_heat", energy, b.internal.plastic_heat},
+                                    {"viscous_work", energy, b.internal.viscous_work},
+                                    {"external_work", energy, b.external},
+                                    {"boundary_work", energy, b.boundary},
+                                    {"friction_work", energy, b.friction},
+                                    {"outflow_energy", energy, b.outflow},
+                                    {"outflow_mass", mass, books.outflow_mass},
+                                    {"transfer_energy", energy, b.transfer},
+                                    {"filter_energy", energy, b.filter},
+                                    {"stress_timing_energy", energy, b.stress_timing},
+                                    {"energy_residual", energy, b.residual},
+                                    {"mass", mass, b.internal.mass}};
   const bool space = books.geometry == Geometry::three_dimensional;
-  const auto add = [&](const std::string& name, const char* unit, const Vector& v, std::size_t first, std::size_t last) {
-    for (std::size_t a = first; a <= last; ++a) entries.push_back({name + "_" + "xyz"[a], unit, v[a]});
+  const auto add = [&](const std::string& name, Extensive quantity, const Vector& v, std::size_t first, std::size_t last) {
+    for (std::size_t a = first; a <= last; ++a)
+      entries.push_back({name + "_" + "xyz"[a], unit_of(quantity, books.geometry), v[a]});
   };
   const auto add_motion = [&](const std::string& momentum, const std::string& angular_momentum, const Change& c) {
-    add(momentum, "kg m/s", c.momentum, 0, space ? 2 : 1);
-    add(angular_momentum, "kg m^2/s", c.angular_momentum, space ? 0 : 2, 2);
+    add(momentum, Extensive::momentum, c.momentum, 0, space ? 2 : 1);
+    add(angular_momentum, Extensive::angular_momentum, c.angular_momentum, space ? 0 : 2, 2);
   };
   add_motion("momentum", "angular_momentum", books.state);
   const std::pair<const char*, const Change*> causes[] = {{"internal", &books.internal_force}, {"external", &books.external},
@@ -152,19 +142,19 @@ std::vector<BookEntry> entries_of(const Books& books) {
                                                           {"filter", &books.filter},           {"outflow", &books.outflow}};
   for (const auto& [cause, change] : causes)
     add_motion(cause + std::string("_impulse"), cause + std::string("_angular_impulse"), *change);
-  add("advection_angular_impulse", "kg m^2/s", books.advection.angular_momentum, space ? 0 : 2, 2);
+  add("advection_angular_impulse", Extensive::angular_momentum, books.advection.angular_momentum, space ? 0 : 2, 2);
   add_motion("momentum_residual", "angular_momentum_residual", {0.0, b.momentum_residual, b.angular_momentum_residual});
   for (const auto& [name, done] : books.boundaries) {
     add_motion(name + "_impulse", name + "_angular_impulse", done);
-    entries.push_back({name + "_work", "J", done.energy});
+    entries.push_back({name + "_work", energy, done.energy});
   }
   for (const BodyBooks& body : books.bodies) {
     const std::string name = "body_" + body.name;
-    entries.push_back({name + "_mass", "kg", body.internal.mass});
-    entries.push_back({name + "_kinetic_energy", "J", body.state.energy});
-    entries.push_back({name + "_internal_energy", "J", body.internal.total});
-    entries.push_back({name + "_thermal_energy", "J", body.internal.thermal});
-    entries.push_back({name + "_plastic_work", "J", body.internal.plastic_work});
+    entries.push_back({name + "_mass", mass, body.internal.mass});
+    entries.push_back({name + "_kinetic_energy", energy, body.state.energy});
+    entries.push_back({name + "_internal_energy", energy, body.internal.total});
+    entries.push_back({name + "_thermal_energy", energy, body.internal.thermal});
+    entries.push_back({name + "_plastic_work", energy, body.internal.plastic_work});
     add_motion(name + "_momentum", name + "_angular_momentum", body.state);
   }
   return entries;
@@ -174,7 +164,7 @@ History::History(std::filesystem::path path, const Books& books, const std::vect
                  std::int64_t rows_to_keep)
     : path_(std::move(path)) {
   std::string header(first_columns);
-  for (const BookEntry& entry : entries_of(books)) header += fmt::format(",{} [{}]", entry.name, entry.unit);
+  for (const BookEntry& entry : entries_of(books)) header += fmt::format(",{} [{}]", entry.name, entry.unit.text);
   for (const HistoryColumn& column : gauges) header += fmt::format(",{} [{}]", column.name, column.unit);
   header += '\n';
   rows_to_keep > 0 ? keep(header, rows_to_keep) : replace_file_by_text(path_, header);

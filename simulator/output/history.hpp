@@ -30,13 +30,13 @@ struct GasBooks {
   gas::Totals residual() const;
 };
 
-/// The books as a user sees them: of the whole bodies, whatever the geometry.
+/// The books as a user sees them: of the whole bodies, or per metre of depth (see extensive.hpp).
 struct Books {
   Geometry geometry = Geometry::three_dimensional;
   Balance balance;
-  double initial_internal = 0.0, peak_kinetic = 0.0;  // J
-  double outflow_mass = 0.0;                          // kg, that has left
-  Change state;                                       // kinetic energy, momentum, angular momentum of all bodies
+  double initial_internal = 0.0, peak_kinetic = 0.0;
+  double outflow_mass = 0.0;  // that has left
+  Change state;               // kinetic energy, momentum, angular momentum of all bodies
   // What has changed it since the start; `boundary` is the sum over the boundaries.
   Change internal_force, external, boundary, transfer, filter, advection, outflow;
   std::vector<std::pair<std::string, Change>> boundaries;  // by name
@@ -47,7 +47,8 @@ Books books_of(const Simulation& s);
 
 /// A name, unit and value of every number in the books.
 struct BookEntry {
-  std::string name, unit;
+  std::string name;
+  Unit unit;
   double value;
 };
 std::vector<BookEntry> entries_of(const Books& books);

@@ -5,14 +5,21 @@
 #include <cmath>
 
 #include "models/programs/files.hpp"
+#include "simulator/output/extensive.hpp"
 #include "simulator/output/hdf5_file.hpp"
 #include "simulator/output/json.hpp"
 
 namespace brisance::simulator {
 namespace {
 
-std::string in_words(const GasBooks& books) {
-  std::string text = fmt::format("  {:24} {:>14} {:>14}\n", "gas", "mass [kg]", "energy [J]");
+std::string unit(Extensive quantity, const Books& books) {
+  return std::string(unit_of(quantity, books.geometry).text);
+}
+
+std::string gas_in_words(const Books& all) {
+  const GasBooks& books = *all.gas;
+  std::string text = fmt::format("  {:24} {:>14} {:>14}\n", "gas", "mass [" + unit(Extensive::mass, all) + "]",
+                                 "energy [" + unit(Extensive::energy, all) + "]");
   const auto row = [&](const std::string& name, const gas::Totals& t) {
     double mass = 0.0;
     for (const double m : t.mass) mass += m;
@@ -31,7 +38,8 @@ std::string in_words(const GasBooks& books) {
 }  // namespace
 
 void write_summary(const Summary& s, const std::filesystem::path& path) {
-  Json measures = Json::object(), comparison = Json::object(), energy = Json::object(), versions = Json::object();
+  Json measures = Json::object(), comparison = Json::object(), energy = Json::object(), units = Json::object(),
+       versions = Json::object();
   for (const MeasuredValue& m : s.measures) {
     measures.set(m.name, m.value);
     if (m.measured) comparison.set(m.name, Json::object().set("measured", *m.measured).set("deviation", *m.deviation()));
@@ -42,12 +50,19 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
   if (!s.books.gas)
     energy.set("numerical_over_peak_kinetic",
                s.books.peak_kinetic > 0.0 ? s.books.balance.numerical() / s.books.peak_kinetic : 0.0);
+  units.set("mass", unit(Extensive::mass, s.books)).set("energy", unit(Extensive::energy, s.books));
+  units.set("momentum", unit(Extensive::momentum, s.books));
+  units.set("angular_momentum", unit(Extensive::angular_momentum, s.books));
   versions.set("brisance", BRISANCE_VERSION).set("compiler", __VERSION__).set("hdf5", hdf5_version());
   versions.set("instruction_set", BRISANCE_INSTRUCTION_SET);
   Json all = Json::object();
   all.set("title", s.title).set("ending", s.ending).set("message", s.message).set("time", s.time).set("steps", s.steps);
   const std::string points = s.books.gas ? "cell" : "particle";
-  all.set(points + "s", s.particles).set("measures", measures).set("comparison", comparison).set("energy", energy);
+  all.set(points + "s", s.particles)
+      .set("measures", measures)
+      .set("comparison", comparison)
+      .set("energy", energy)
+      .set("units", units);
   if (s.books.gas) all.set("first_order_cell_steps", s.books.gas->plain).set("flattened_slopes", s.books.gas->flattened);
   all.set("wall_time", s.wall_time).set(points + "_steps_per_second", s.particle_steps_per_second).set("threads", s.threads);
   replace_file_by_text(path, all.set("versions", versions).text());
@@ -70,10 +85,10 @@ std::string in_words(const Summary& s) {
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", m.name, shown(m.value), m.measured ? shown(*m.measured) : "",
                         m.measured ? difference(m) : "");
   }
-  if (s.books.gas) return text + in_words(*s.books.gas);
+  if (s.books.gas) return text + gas_in_words(s.books);
   const Balance& b = s.books.balance;
   const double peak = s.books.peak_kinetic > 0.0 ? s.books.peak_kinetic : 1.0;
-  text += fmt::format("  {:24} {:>14} {:>14}\n", "energy", "J", "of the peak");
+  text += fmt::format("  {:24} {:>14} {:>14}\n", "energy", unit(Extensive::energy, s.books), "of the peak");
   const auto row = [&](const char* name, double value) {
     text += fmt::format("  {:24} {:14.6g} {:12.4g} %\n", name, value, 100.0 * value / peak);
   };

@@ -15,6 +15,8 @@ struct Bounds {
   Vector lower, upper;
 };
 Bounds bounds(const Shape& shape);
+/// The same without negative radii, where there is nothing.
+Bounds bounds(const Shape& shape, Geometry geometry);
 
 /// Places in a sub-cell along each direction where particles are made: how much of it a shape fills is known to a part in the
 /// square (cube) of that.
@@ -23,5 +25,9 @@ inline constexpr int samples_per_direction = 4;
 /// Filled part of the volume of a box, from the middles of `samples` equal parts along each direction of the
 /// geometry. Exactly 1 or 0 if all of them are inside or outside. In the axisymmetric geometry the box is a ring, 0 <= r.
 double filled_fraction(const Shape& shape, Geometry geometry, const Vector& lower, const Vector& upper, int samples);
+
+/// Volume of a shape (of one metre of depth in the plane geometry, of one radian in the axisymmetric one), from points at most
+/// `spacing` apart, unless they were very many.
+double volume(const Shape& shape, Geometry geometry, double spacing);
 
 }  // namespace brisance::simulator

@@ -9,39 +9,22 @@
 #include <random>
 
 #include "driver/follow.hpp"
-#include "tests/models/flow_stress_sets.hpp"
+#include "tests/models/sample_materials.hpp"
 
 namespace brisance::driver {
 namespace {
 
-Material copper_without_flow_stress() {
-  Material m;
-  m.name = "copper";
-  m.density = 8930.0;
-  m.equation_of_state = equation_of_state::MieGruneisenTemperature{.reference_density = 8930.0,
-                                                                   .sound_speed = 3940.0,
-                                                                   .slope = 1.489,
-                                                                   .gruneisen = 2.02,
-                                                                   .specific_heat = 383.0,
-                                                                   .reference_temperature = 298.0};
+Material copper_with(const FlowStress& flow_stress) {
+  Material m = samples::copper_johnson_cook();
   m.shear_modulus = shear_modulus::VarshniChenGray{.zero_temperature_value = 47.7e9, .D = 3e9, .T0 = 180.0};
-  m.melting = melting::Constant{.value = 1356.0};
-  m.specific_heat = specific_heat::Constant{.value = 383.0};
-  m.yield = yield::VonMises{};
-  Table chi;
-  chi.size = 1, chi.y[0] = 0.9;
-  m.heating = Heating{.taylor_quinney = chi, .viscous = true, .thermoelastic = false};
+  m.flow_stress = flow_stress;
   return m;
 }
 Material johnson_cook() {
-  Material m = copper_without_flow_stress();
-  m.flow_stress = flow_stress::sets::johnson_cook_copper;
-  return m;
+  return copper_with(flow_stress::sets::johnson_cook_copper);
 }
 Material threshold_stress() {
-  Material m = copper_without_flow_stress();
-  m.flow_stress = flow_stress::sets::threshold_copper;
-  return m;
+  return copper_with(flow_stress::sets::threshold_copper);
 }
 
 struct Conditions {

@@ -19,33 +19,15 @@ constexpr double integration_tolerance = 1e-8;  // relative; each step is held t
 
 constexpr double copper_density = 8930.0, room_temperature = 298.0;
 
-equation_of_state::MieGruneisenTemperature copper_equation_of_state() {
-  return {.reference_density = copper_density,
-          .sound_speed = 3940.0,
-          .slope = 1.489,
-          .gruneisen = 2.02,
-          .specific_heat = 383.0,
-          .reference_temperature = room_temperature};
-}
-Material elastic_copper() {
-  Material m;
-  m.name = "copper";
-  m.density = copper_density;
-  m.equation_of_state = copper_equation_of_state();
-  m.shear_modulus = shear_modulus::Constant{.value = 45e9};
-  m.melting = melting::Constant{.value = 1356.0};
+Material johnson_cook_copper(double rate_coefficient, double thermal_exponent) {
+  Material m = samples::copper_johnson_cook();
+  auto& law = std::get<flow_stress::JohnsonCook>(*m.flow_stress);
+  law.C = rate_coefficient, law.m = thermal_exponent;
   return m;
 }
-Material johnson_cook_copper(double rate_coefficient, double thermal_exponent) {
-  Material m = elastic_copper();
-  m.specific_heat = specific_heat::Constant{.value = 383.0};
-  flow_stress::JohnsonCook law = flow_stress::sets::johnson_cook_copper;
-  law.C = rate_coefficient, law.m = thermal_exponent;
-  m.flow_stress = law;
-  m.yield = yield::VonMises{};
-  Table chi;
-  chi.size = 1, chi.y[0] = 0.9;
-  m.heating = Heating{.taylor_quinney = chi, .viscous = true, .thermoelastic = false};
+Material elastic_copper() {
+  Material m = samples::copper_johnson_cook();
+  m.flow_stress.reset(), m.yield.reset(), m.specific_heat.reset(), m.heating.reset();
   return m;
 }
 

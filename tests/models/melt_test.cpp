@@ -6,33 +6,13 @@
 #include <memory>
 
 #include "models/update.hpp"
+#include "tests/models/sample_materials.hpp"
 
 namespace brisance {
 namespace {
 
-Material copper() {
-  Material m;
-  m.name = "copper", m.density = 8930.0;
-  m.equation_of_state = equation_of_state::MieGruneisenTemperature{.reference_density = 8930.0,
-                                                                   .sound_speed = 3940.0,
-                                                                   .slope = 1.489,
-                                                                   .gruneisen = 2.02,
-                                                                   .specific_heat = 383.0,
-                                                                   .reference_temperature = 298.0};
-  m.flow_stress = flow_stress::JohnsonCook{
-      .A = 90e6, .B = 292e6, .n = 0.31, .C = 0.025, .m = 1.09, .reference_strain_rate = 1.0, .reference_temperature = 298.0};
-  m.shear_modulus = shear_modulus::Constant{.value = 46e9};
-  m.melting = melting::Constant{.value = 1356.0};
-  m.specific_heat = specific_heat::Constant{.value = 383.0};
-  m.yield = yield::VonMises{};
-  Table chi;
-  chi.size = 1, chi.y[0] = 0.9;
-  m.heating = Heating{.taylor_quinney = chi, .viscous = true, .thermoelastic = false};
-  return m;
-}
-
 TEST(Melt, BearsNoDeviatorHoweverItIsCompressed) {
-  const Material m = copper();
+  const Material m = samples::copper_johnson_cook();
   const auto batch = std::make_unique<Batch<double>>();
   batch->size = 1;
   Point<double>& p = batch->points[0];

@@ -139,6 +139,21 @@ inline Material steel_4340() {
   return m;
 }
 
+/// Copper: Johnson-Cook, Mie-Grueneisen in temperature, no failure.
+inline Material copper_johnson_cook() {
+  Material m;
+  m.name = "copper";
+  m.density = 8930.0;
+  m.equation_of_state = equation_of_state::MieGruneisenTemperature{8930.0, 3940.0, 1.489, 2.02, 383.0, room_temperature};
+  m.shear_modulus = shear_modulus::Constant{45e9};
+  m.melting = melting::Constant{1356.0};
+  m.specific_heat = specific_heat::Constant{383.0};
+  m.flow_stress = flow_stress::sets::johnson_cook_copper;
+  m.yield = yield::VonMises{};
+  m.heating = Heating{constant_table(0.9), true, false};
+  return m;
+}
+
 /// HY-100 steel: threshold stress, porous yield, nucleation, Tepla-F.
 inline Material steel_hy100() {
   Material m;

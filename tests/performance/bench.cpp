@@ -11,6 +11,7 @@
 
 #include "models/phases.hpp"
 #include "models/update.hpp"
+#include "tests/models/flow_stress_sets.hpp"
 #include "tests/performance/environment.hpp"
 
 namespace brisance {
@@ -134,42 +135,7 @@ int run(const char* json) {
   const auto [flops, bandwidth] = print_environment();
   std::printf("%-42s %10s %10s %10s %8s %8s\n", "ns per point and update", "double", "lanes", "static", "speed-up", "plastic");
 
-  const flow_stress::JohnsonCook steel{792e6, 510e6, 0.26, 0.014, 1.03, 1.0, 298.0};
   const damage::JohnsonCook steel_damage{0.05, 3.44, -2.12, 0.002, 0.61, 1.0, 298.0, 0.01};
-  const flow_stress::MechanicalThresholdStress hy100{.athermal_stress = 40e6,
-                                                     .k_over_b3 = 0.905e6,
-                                                     .reference_shear_modulus = 71.46e9,
-                                                     .intrinsic_stress = 1341e6,
-                                                     .intrinsic_barrier = 1.161,
-                                                     .intrinsic_rate = 1e13,
-                                                     .intrinsic_p = 0.5,
-                                                     .intrinsic_q = 1.5,
-                                                     .evolving_barrier = 1.6,
-                                                     .evolving_rate = 1e7,
-                                                     .evolving_p = 2.0 / 3.0,
-                                                     .evolving_q = 1.0,
-                                                     .a0 = 6.0e9,
-                                                     .a1 = 0.0,
-                                                     .a2 = 0.0,
-                                                     .a3 = 2.0758e6,
-                                                     .stage_four_hardening = 200e6,
-                                                     .hardening_form = {},
-                                                     .alpha = 3.0,
-                                                     .saturation_stress = 822e6,
-                                                     .saturation_barrier = 0.112,
-                                                     .saturation_rate = 1e7};
-  const flow_stress::PrestonTonksWallace copper{.theta = 0.025,
-                                                .p = 2.0,
-                                                .s0 = 0.0085,
-                                                .s_inf = 0.00055,
-                                                .kappa = 0.11,
-                                                .gamma = 1e-5,
-                                                .y0 = 0.0001,
-                                                .y_inf = 0.0001,
-                                                .y1 = 0.094,
-                                                .y2 = 0.575,
-                                                .beta = 0.25,
-                                                .atomic_mass = 63.546};
   using equation_of_state::MieGruneisenTemperature;
   const std::vector<Row> rows{
       measure("Johnson-Cook, Mie-Grueneisen, JC damage",
@@ -180,7 +146,7 @@ int run(const char* json) {
                                                   {80e9},
                                                   {1793.0},
                                                   {477.0},
-                                                  steel,
+                                                  flow_stress::sets::steel_4340,
                                                   {},
                                                   steel_damage,
                                                   {},
@@ -197,7 +163,7 @@ int run(const char* json) {
                                                                         {71.46e9, 2.9e9, 204.0},
                                                                         {1793.0},
                                                                         {477.0},
-                                                                        hy100,
+                                                                        flow_stress::sets::threshold_hy100,
                                                                         {1.5, 1.0, 2.25, 0.05, 4.0, {}},
                                                                         {},
                                                                         {},
@@ -214,7 +180,7 @@ int run(const char* json) {
                                                         {47.7e9},
                                                         {1356.0},
                                                         {383.0},
-                                                        copper,
+                                                        flow_stress::sets::preston_copper,
                                                         {},
                                                         {},
                                                         {},

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "models/input/material_reader.hpp"
 #include "simulator/setup.hpp"
 #include "simulator/simulation.hpp"
 #include "simulator/solid/stress.hpp"
@@ -39,6 +40,12 @@ inline Material elastic_material(double density, double youngs_modulus, double p
   m.shear_modulus = shear_modulus::Constant{youngs_modulus / (2.0 * (1.0 + poissons_ratio))};
   m.artificial_viscosity = {0.0, 0.0};
   return m;
+}
+
+/// That of data/materials.
+inline const Material& copper() {
+  static const Material read = read_material(BRISANCE_SOURCE_DIR "/data/materials/copper_ofhc_johnson_cook.toml");
+  return read;
 }
 
 inline BodyConfig body(std::string name, const Material& material, ShapePointer shape, const Vector& velocity = {}) {

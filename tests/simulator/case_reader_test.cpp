@@ -464,6 +464,30 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
        "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"surface\"\naxis = \"y\"\nmoves = true\nfrom = [0, 0]\nto = [1, "
        "1]\nfields = [\"pressure\"]",
        "gauge.0.moves: it would be ignored: a surface is where the material ends"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"point\"\nfrom = [0, \"-1 mm\"]\nfields = [\"pressure\"]\nmoves = "
+       "false",
+       "gauge.0.from: it lies beyond the boundary \"rigid_wall_y_above\" at y = 0 m, where there is never any material"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"point\"\nfrom = [\"-1 mm\", 0]\nfields = [\"pressure\"]",
+       "gauge.0.from: r = -0.001 m; a radius is not negative"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"point\"\nfrom = [0, \"26 mm\"]\nfields = [\"pressure\"]",
+       "gauge.0.from: it is more than a cell away from all solids; what moves with the material starts in it: give another "
+       "place, or moves = false"},
+      {"side = \"above\"\n",
+       "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"plane\"\nfrom = [\"5 mm\", 0]\nto = [\"6 mm\", \"1 mm\"]\nfields "
+       "= "
+       "[\"pressure\"]\nbody = \"bar\"",
+       "gauge.0.from: all of it is more than a cell away from solid \"bar\""},
+      // Of the bar's volume, 3.81^2 x 25.4 mm^3, the ball has 2/3 x 27 mm^3.
+      {"[[boundary]]",
+       "[[solid]]\nname = \"ball\"\nmaterial = \"copper_ofhc_mts.toml\"\ntemperature = \"295 K\"\nshape = { sphere = { centre "
+       "= "
+       "[0, \"25.4 mm\"], radius = \"3 mm\" } }\n[[boundary]]",
+       "solid.1.shape: it fills about 4.9 % of solid \"bar\" as well, between (0, 0.0224) and (0.003, 0.0254) m; two bodies "
+       "are not in "
+       "one place"},
       {"[[boundary]]", "[numerics]\ntrimming = 0.05\n[[boundary]]",
        "numerics.trimming: it would be ignored: in two dimensions a sub-cell is sampled in 16 places; give 0, or 0.0625 and "
        "more"},
@@ -513,6 +537,39 @@ TEST(CaseReader, ACaseHasABody) {
   for (const char* none : {"", "solid = []\n"})
     EXPECT_EQ(problems_of(std::string(none) + "geometry = \"plane\"\ncell_size = 1\nend_time = 1\n"),
               "case.toml: there is no [[solid]] and no [gas]; a case has one of them");
+}
+
+TEST(CaseReader, BodiesMayTouchAndGaugesMayWaitForMaterialOrSitOnItsSurface) {
+  const std::string text = bar + R"([[solid]]
+name = "sleeve"
+material = "copper_ofhc_mts.toml"
+temperature = "295 K"
+shape = { tube = { start = [0, 0], end = [0, "25.4 mm"], radius = "6 mm", inner_radius = "3.81 mm" } }
+[[solid]]
+name = "cap"
+material = "copper_ofhc_mts.toml"
+temperature = "295 K"
+shape = { box = { lower = [0, "25.4 mm"], upper = ["6 mm", "30 mm"] } }
+[[gauge]]
+name = "corner"
+kind = "point"
+from = ["6 mm", "30 mm"]
+fields = ["pressure"]
+[[gauge]]
+name = "waiting"
+kind = "point"
+moves = false
+from = ["20 mm", 0]
+fields = ["pressure"]
+[[gauge]]
+name = "rim"
+kind = "surface"
+axis = "x"
+from = ["-1 mm", 0]
+to = ["-1 mm", "1 mm"]
+fields = ["position"]
+)";
+  EXPECT_EQ(problems_of(text), "none");
 }
 
 TEST(CaseReader, ABodyMayBeCutAtABoundary) {

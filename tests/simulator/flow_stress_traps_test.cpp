@@ -7,15 +7,13 @@
 #include <cmath>
 #include <variant>
 
-#include "models/input/material_reader.hpp"
 #include "models/update.hpp"
+#include "tests/simulator/by_hand.hpp"
 
 namespace brisance {
 namespace {
 
-Material copper() {
-  return read_material(std::string(BRISANCE_SOURCE_DIR) + "/data/materials/copper_ofhc_johnson_cook.toml");
-}
+using simulator::by_hand::copper;
 
 double flow_stress_at(double strain, double rate, double temperature) {
   flow_stress::Arguments<double> at{};

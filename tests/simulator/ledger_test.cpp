@@ -10,7 +10,6 @@
 #include <functional>
 #include <string>
 
-#include "models/input/material_reader.hpp"
 #include "simulator/output/history.hpp"
 #include "simulator/solid/motion.hpp"
 #include "tests/simulator/by_hand.hpp"
@@ -18,11 +17,7 @@
 namespace brisance::simulator {
 namespace {
 
-Material copper() {
-  static const Material read =
-      read_material(std::string(BRISANCE_SOURCE_DIR) + "/data/materials/copper_ofhc_johnson_cook.toml");
-  return read;
-}
+using by_hand::copper;
 
 /// A copper block strikes a rough wall aslant, under gravity, with a pressure and a shear traction on its top: everything that
 /// the books know of, but outflow.

@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <cstdlib>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -45,7 +49,47 @@ TEST_P(Parallel, RethrowsWhatTheLowestBlockThrewAfterAllAreDone) {
   }
 }
 
+TEST_P(Parallel, LeavesAFewBlocksToTheThreadThatAsks) {
+  const auto threads_for = [](std::size_t blocks) {
+    std::vector<int> by(blocks, -1);
+    parallel_for_blocks(blocks, [&](std::size_t i) { by[i] = omp_get_num_threads(); });
+    return std::set<int>(by.begin(), by.end());
+  };
+  const auto enough = least_blocks_per_thread * static_cast<std::size_t>(GetParam());
+  EXPECT_EQ(threads_for(enough - 1), std::set<int>{1});
+  EXPECT_EQ(threads_for(enough), std::set<int>{GetParam()});
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, Parallel, testing::Values(1, 2, 5));
+
+/// What a child process that calls let_waiting_threads_sleep ends with: the code of the program it became, or `returned`.
+constexpr int returned = 99, sleeps = 42;
+int outcome_in_a_child(const char* policy) {
+  const pid_t child = fork();
+  if (child == 0) {
+    unsetenv("GOMP_SPINCOUNT");
+    policy ? setenv("OMP_WAIT_POLICY", policy, 1) : unsetenv("OMP_WAIT_POLICY");
+    std::string words[] = {"a", "--gtest_also_run_disabled_tests", "--gtest_filter=*WaitingThreadsOfAProgramStartedAnew*"};
+    char* argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+    let_waiting_threads_sleep(argv);
+    _exit(returned);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// Runs in the child of the test below.
+TEST(Waiting, DISABLED_WaitingThreadsOfAProgramStartedAnewSleep) {
+  ASSERT_STREQ(std::getenv("OMP_WAIT_POLICY"), "passive");
+  _exit(sleeps);
+}
+
+TEST(Waiting, IsWhatTheUserSaysOrElseSleep) {
+  EXPECT_EQ(outcome_in_a_child(nullptr), sleeps) << "the program starts itself anew";
+  EXPECT_EQ(outcome_in_a_child("passive"), returned);
+  EXPECT_EQ(outcome_in_a_child("active"), returned);
+}
 
 }  // namespace
 }  // namespace brisance::simulator

@@ -11,20 +11,16 @@
 #include <random>
 #include <string>
 
-#include "models/input/material_reader.hpp"
+#include "simulator/parallel.hpp"
 #include "tests/simulator/by_hand.hpp"
 #include "tests/simulator/virtual_ranks.hpp"
 
 namespace brisance::simulator {
 namespace {
 
-// Cases that together use every way in which particles and ranks meet ---------------------------------------------------
+using by_hand::copper;
 
-Material copper() {
-  static const Material read =
-      read_material(std::string(BRISANCE_SOURCE_DIR) + "/data/materials/copper_ofhc_johnson_cook.toml");
-  return read;
-}
+// Cases that together use every way in which particles and ranks meet ---------------------------------------------------
 
 constexpr double bar_radius = 3.81e-3, bar_length = 7e-3, bar_speed = 190.0;
 
@@ -144,6 +140,7 @@ Fingerprint on_threads(const Case& c, int threads, const std::function<void(Simu
   if (prepare) prepare(s);
   go(s, c.dimensions(), before_step);
   omp_set_num_threads(threads_before);
+  EXPECT_GE(s.grid.my_blocks.size(), least_blocks_per_thread * static_cast<std::size_t>(threads)) << "enough to be shared";
   State state;
   add_state(s, state);
   Fingerprint f = fingerprint(state, s);

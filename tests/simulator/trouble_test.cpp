@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "models/equation_of_state/thermodynamics.hpp"
-#include "models/input/material_reader.hpp"
 #include "simulator/output/run_directory.hpp"
 #include "simulator/run.hpp"
 #include "tests/simulator/running.hpp"
@@ -16,11 +15,9 @@
 namespace brisance::simulator {
 namespace {
 
-using Layout2 = Layout<2>;
+using by_hand::copper;
 
-Material copper() {
-  return read_material(BRISANCE_SOURCE_DIR "/data/materials/copper_ofhc_johnson_cook.toml");
-}
+using Layout2 = Layout<2>;
 
 /// A copper block in the plane geometry, 64 particles.
 Case block(const Vector& velocity = {}) {

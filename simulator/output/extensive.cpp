@@ -1,0 +1,36 @@
+#include "simulator/output/extensive.hpp"
+
+#include <numbers>
+
+namespace brisance::simulator {
+
+double whole_of(Geometry geometry) {
+  switch (geometry) {
+    case Geometry::axisymmetric:
+    case Geometry::cylindrical_1d:
+      return 2.0 * std::numbers::pi;
+    case Geometry::spherical_1d:
+      return 4.0 * std::numbers::pi;
+    default:
+      return 1.0;
+  }
+}
+
+Unit unit_of(Extensive quantity, Geometry geometry) {
+  using Units = std::array<Unit, 4>;  // of mass, energy, momentum, angular momentum
+  constexpr Units whole = {Unit::kg, Unit::J, Unit{"N s"}, Unit{"N m s"}};
+  constexpr Units per_length = {Unit{"kg/m"}, Unit{"J/m"}, Unit{"N s/m"}, Unit{"N m s/m"}};
+  constexpr Units per_area = {Unit{"kg/m^2"}, Unit{"J/m^2"}, Unit{"N s/m^2"}, Unit{"N m s/m^2"}};
+  const auto number = static_cast<std::size_t>(quantity);
+  switch (geometry) {
+    case Geometry::plane:
+    case Geometry::cylindrical_1d:
+      return per_length[number];
+    case Geometry::planar_1d:
+      return per_area[number];
+    default:
+      return whole[number];
+  }
+}
+
+}  // namespace brisance::simulator

@@ -1,0 +1,20 @@
+#pragma once
+// Mass, energy, momentum: of the whole where the geometry knows it, else per metre of depth or length, or per square metre of
+// cross-section.
+
+#include <string_view>
+
+#include "models/parameters.hpp"
+#include "simulator/config.hpp"
+
+namespace brisance::simulator {
+
+enum class Extensive { mass, energy, momentum, angular_momentum };
+
+/// From what the particles and cells of round geometries carry, per radian or steradian, to what is shown.
+double whole_of(Geometry geometry);
+
+/// The unit of what is shown, "J/m".
+Unit unit_of(Extensive quantity, Geometry geometry);
+
+}  // namespace brisance::simulator

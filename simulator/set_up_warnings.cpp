@@ -1,0 +1,92 @@
+#include "simulator/set_up_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "models/update.hpp"
+#include "models/visit.hpp"
+#include "simulator/solid/shapes.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+/// Without pressure, at the density that the body starts with.
+std::optional<double> melting_temperature(const Material& material, double temperature) {
+  std::optional<double> result;
+  visit_law(material.melting, [&](const auto& law) {
+    const double density = stress_free_state(material, temperature).density;
+    result = law(melting::Arguments<double>{0.0, density / material.density});
+  });
+  return result;
+}
+
+/// Whether a body keeps its shape and velocity until it meets something.
+bool flies_freely(const Case& c, const BodyConfig& body) {
+  const InitialVelocity& v = body.velocity;
+  return c.gravity == Vector{} && v.rotation == Vector{} && v.radial == 0.0 && v.radial_rate == 0.0 &&
+         std::none_of(c.loads.begin(), c.loads.end(), [&](const LoadConfig& load) { return load.body == body.name; });
+}
+
+/// Whether two boxes come within a margin of each other before a time; the first moves.
+bool meet(const Bounds& moving, const Vector& velocity, const Bounds& box, double margin, double time, int dimensions) {
+  double first = 0.0, last = time;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimensions); ++a) {
+    // The boxes overlap along this axis while `nearest` <= v t <= `farthest`.
+    const double nearest = box.lower[a] - margin - moving.upper[a], farthest = box.upper[a] + margin - moving.lower[a];
+    if (velocity[a] == 0.0) {
+      if (nearest > 0.0 || farthest < 0.0) return false;
+      continue;
+    }
+    const auto [enters, leaves] = std::minmax({nearest / velocity[a], farthest / velocity[a]});
+    first = std::max(first, enters), last = std::min(last, leaves);
+  }
+  return first <= last;
+}
+
+bool meets(const Case& c, const BodyConfig& body, const BoundaryConfig& boundary) {
+  const auto axis = static_cast<std::size_t>(boundary.axis);
+  const Bounds extent = bounds(*body.shape);
+  const double inward = boundary.side == Side::above ? 1.0 : -1.0;
+  const double distance =
+      boundary.side == Side::above ? extent.lower[axis] - boundary.position : boundary.position - extent.upper[axis];
+  const double approach = -inward * body.velocity.translation[axis];
+  const bool holds_what_touches = boundary.kind == BoundaryKind::fixed || boundary.kind == BoundaryKind::velocity;
+  return (holds_what_touches && distance <= c.cell_size) || (approach > 0.0 && distance - approach * c.end_time <= c.cell_size);
+}
+
+/// Only if there is no doubt: what is in doubt counts as met.
+bool meets_nothing(const Case& c, const BodyConfig& body) {
+  return flies_freely(c, body) &&
+         std::none_of(c.boundaries.begin(), c.boundaries.end(), [&](const BoundaryConfig& b) { return meets(c, body, b); }) &&
+         std::none_of(c.bodies.begin(), c.bodies.end(), [&](const BodyConfig& other) {
+           return &other != &body &&
+                  (!flies_freely(c, other) || meet(bounds(*body.shape), body.velocity.translation - other.velocity.translation,
+                                                   bounds(*other.shape), c.cell_size, c.end_time, c.dimensions()));
+         });
+}
+
+}  // namespace
+
+std::vector<std::string> set_up_warnings(const Case& c) {
+  std::vector<std::string> warnings;
+  for (const BodyConfig& body : c.bodies) {
+    const std::optional<double> melting = melting_temperature(body.material.material, body.temperature);
+    if (melting && body.temperature >= *melting)
+      warnings.push_back(
+          fmt::format("{}: it starts at {:.6g} K, not below the melting temperature of {}, {:.6g} K: it has no strength",
+                      body.name, body.temperature, body.material.material.name, *melting));
+    const double speed = std::sqrt(dot(body.velocity.translation, body.velocity.translation));
+    if (speed > 0.0 && meets_nothing(c, body))
+      warnings.push_back(
+          fmt::format("{}: it flies at {:.4g} m/s and meets no boundary and no other body before the end at {:.4g} s; look at "
+                      "its direction and at end_time",
+                      body.name, speed, c.end_time));
+  }
+  return warnings;
+}
+
+}  // namespace brisance::simulator
