@@ -8,6 +8,7 @@
 #include "simulator/domain/message.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/ghosts.hpp"
+#include "simulator/gas/implicit.hpp"
 #include "simulator/gas/lagrangian.hpp"
 #include "simulator/gas/passages.hpp"
 #include "simulator/gas/remap.hpp"
@@ -77,6 +78,7 @@ void fill(Gas& gas, const FillingFunction& filling, Domain& domain) {
       for (CellSet* set : {&gas.content, &gas.moved, &gas.next}) write_content(gas, *set, block, c, f);
       write_primitive(gas, block, c, f);
     }
+  if (gas.implicit) open_implicit(gas, domain);
   begin(gas, domain);
   gas.initial = totals(gas, domain);
 }
@@ -89,12 +91,18 @@ void begin(Gas& gas, Domain& domain) {
 
 double largest_step(const Gas& gas, double courant) {
   constexpr double most_swept = 0.5;  // of a cell, through one face
-  return std::min(courant / gas.wave_rate, most_swept / std::max(gas.motion_rate, 1e-300));
+  return std::min((gas.implicit ? gas.acoustic_courant : courant) / gas.wave_rate,
+                  most_swept / std::max(gas.motion_rate, 1e-300));
 }
 
 Outcome advance(Gas& gas, double dt, Domain& domain) {
   clear_step(gas.passages);
-  timed(gas, Phase::half_step, [&] { advance_half_step(gas, dt); });
+  if (gas.implicit) {
+    const bool solved = timed(gas, Phase::half_step, [&] { return solve_pressure(gas, dt, domain); });
+    if (!solved) return Outcome::rejected;
+  } else {
+    timed(gas, Phase::half_step, [&] { advance_half_step(gas, dt); });
+  }
   timed(gas, Phase::ghosts, [&] { share_half_step(gas, dt, domain); });
   const bool good = timed(gas, Phase::lagrangian, [&] { return lagrangian_phase(gas, dt); });
   if (domain.maximum(good ? 0.0 : 1.0) > 0.0) return Outcome::rejected;
@@ -176,8 +184,8 @@ std::vector<Totals> passed(const Gas& gas, Domain& domain) {
 }
 
 std::size_t Gas::bytes() const {
-  std::size_t sum = swept.capacity() * sizeof(Lanes);
-  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step}) sum += set->bytes();
+  std::size_t sum = swept.capacity() * sizeof(Lanes) + face_laws.capacity() * sizeof(FaceLaw);
+  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step, &gradient, &unknown}) sum += set->bytes();
   return sum;
 }
 
