@@ -479,6 +479,11 @@ class CaseReader : public KeyReader<CaseReader> {
       if (!in.has("pressure")) in.problem("pressure", "missing: the pressure beyond");
       if (in.has("density") || in.has("temperature") || in.has("velocity") || in.has("fluid"))
         in.problem("only the pressure counts beyond an edge of this kind; remove the rest, or make it non_reflecting");
+    } else if (edge.kind == EdgeKind::no_slip) {
+      if (in.has("pressure") || in.has("density") || in.has("fluid"))
+        in.problem("of a wall only its velocity and temperature count; remove the rest");
+      if (edge.velocity[static_cast<std::size_t>(edge.side) / 2] != 0.0)
+        in.problem("velocity", "a wall moves along itself only; make the component across it 0");
     } else if (given) {
       in.problem("a state would be ignored: nothing comes through a wall or from beyond a period");
     }
@@ -499,6 +504,13 @@ class CaseReader : public KeyReader<CaseReader> {
       if (cells < least - round_off)
         in.problem("upper", fmt::format("along {} the box is {:.3g} cells wide; {:g} at least", axis_names[k], cells, least));
     }
+    if (gas.acoustic_courant != GasConfig{}.acoustic_courant && !gas.implicit)
+      in.problem("acoustic_courant", "it would be ignored: it is the Courant number of implicit = true");
+    if (gas.courant != 0.0 && gas.implicit)
+      in.problem("courant", "it would be ignored: the steps of implicit = true are those of acoustic_courant");
+    if (gas.momentum_exchange != GasConfig{}.momentum_exchange && gas.scheme != GasScheme::ice_classic)
+      in.problem("momentum_exchange",
+                 "it would be ignored: fluids of a cell have one velocity but with scheme = \"ice_classic\"");
     const bool round = is_round(case_.geometry);
     if (round && gas.lower[0] < 0.0) in.problem("lower", "r = " + in_metres(gas.lower[0]) + "; a radius is not negative");
     if (round && case_.gravity[0] != 0.0) in.problem("lower", "gravity along r is not possible");

@@ -128,14 +128,20 @@ enum class EdgeKind {
   inflow,          // the state beyond is given
   pressure,        // the pressure beyond is given, the rest follows the gas inside
   non_reflecting,  // waves leave into a given state beyond
-  periodic         // the other side of the box
+  periodic,        // the other side of the box
+  no_slip          // a wall that viscous fluids stick to
 };
 enum class BoxSide { low_x, high_x, low_y, high_y, low_z, high_z };
 
 struct FluidConfig {
   std::string name;
-  MaterialFile material;  // of which the equation of state counts
+  MaterialFile material;                         // of which the equation of state counts
+  double viscosity = 0.0, bulk_viscosity = 0.0;  // Pa s
+  double conductivity = 0.0;                     // W/(m K)
 };
+
+/// What advances the gas: conservative ICE, or the classic ICE of 1993 to compare with.
+enum class GasScheme { ice, ice_classic };
 
 /// A state of gas: what fills a region at the start, or what lies beyond an edge.
 struct GasStateConfig {
@@ -158,6 +164,11 @@ struct GasConfig {
   Vector lower{}, upper{};  // m, on planes of nodes
   double courant = 0.0;     // 0: 0.5
   double least_mach = 0.001;
+  GasScheme scheme = GasScheme::ice;
+  bool implicit = false;            // acoustic waves by a solve for the pressure
+  double acoustic_courant = 20.0;   // of their steps
+  double momentum_exchange = 1e15;  // kg/(m^3 s), between fluids: scheme ice_classic
+  double heat_exchange = 0.0;       // W/(m^3 K), between fluids
   std::vector<FluidConfig> fluids;
   std::vector<FillConfig> fills;
   std::vector<EdgeConfig> edges;
@@ -284,9 +295,11 @@ inline constexpr std::array choices<simulator::BoundaryKind> = {std::string_view
                                                                 std::string_view{"velocity"}, std::string_view{"rigid_wall"},
                                                                 std::string_view{"outflow"}};
 template <>
-inline constexpr std::array choices<simulator::EdgeKind> = {std::string_view{"wall"}, std::string_view{"inflow"},
+inline constexpr std::array choices<simulator::EdgeKind> = {std::string_view{"wall"},     std::string_view{"inflow"},
                                                             std::string_view{"pressure"}, std::string_view{"non_reflecting"},
-                                                            std::string_view{"periodic"}};
+                                                            std::string_view{"periodic"}, std::string_view{"no_slip"}};
+template <>
+inline constexpr std::array choices<simulator::GasScheme> = {std::string_view{"ice"}, std::string_view{"ice_classic"}};
 template <>
 inline constexpr std::array choices<simulator::BoxSide> = {std::string_view{"low_x"}, std::string_view{"high_x"},
                                                            std::string_view{"low_y"}, std::string_view{"high_y"},

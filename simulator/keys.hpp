@@ -43,7 +43,7 @@ struct Tube {
 inline constexpr std::array<std::string_view, 8> shape_forms = {"box",  "cylinder", "cone",         "sphere",
                                                                 "tube", "union",    "intersection", "difference"};
 
-constexpr Unit m_per_s2{"m/s^2"};
+constexpr Unit m_per_s2{"m/s^2"}, Pa_s{"Pa s"}, W_per_m_K{"W/(m K)"}, W_per_m3_K{"W/(m^3 K)"}, kg_per_m3_s{"kg/(m^3 s)"};
 
 template <>
 inline constexpr auto keys<Box> =
@@ -139,10 +139,13 @@ inline constexpr auto keys<LoadConfig> = std::tuple{
 // Gas: [gas], [[gas.fluid]], [[gas.fill]], [[gas.edge]] ------------------------------------------------------------------
 
 template <>
-inline constexpr auto keys<FluidConfig> =
-    std::tuple{Key{"name", &FluidConfig::name, Unit::one, "what the fluid is called here and in output", any_value, required},
-               Key{"material", &FluidConfig::material, Unit::one,
-                   "name of a material file, or the material itself; its equation of state counts", any_value, required}};
+inline constexpr auto keys<FluidConfig> = std::tuple{
+    Key{"name", &FluidConfig::name, Unit::one, "what the fluid is called here and in output", any_value, required},
+    Key{"material", &FluidConfig::material, Unit::one,
+        "name of a material file, or the material itself; its equation of state counts", any_value, required},
+    Key{"viscosity", &FluidConfig::viscosity, Pa_s, "dynamic viscosity, constant", non_negative},
+    Key{"bulk_viscosity", &FluidConfig::bulk_viscosity, Pa_s, "resistance to a change of volume, constant", non_negative},
+    Key{"conductivity", &FluidConfig::conductivity, W_per_m_K, "of heat, constant", non_negative}};
 
 /// The keys of a state of gas, of a region or an edge.
 template <class Config>
@@ -174,6 +177,18 @@ inline constexpr auto keys<GasConfig> = std::tuple{
     Key{"courant", &GasConfig::courant, Unit::one, "part of the stable step; 0: 0.5", fraction},
     Key{"least_mach", &GasConfig::least_mach, Unit::one,
         "Mach number below which the damping of slow flow falls no further; 1: always that of a shock", fraction},
+    Key{"scheme", &GasConfig::scheme, Unit::one, "ice, or to compare with it the classic form of 1993, ice_classic"},
+    Key{"implicit", &GasConfig::implicit, Unit::one,
+        "solve for the pressure of each step, so that steps may be longer than sound takes from cell to cell"},
+    Key{"acoustic_courant", &GasConfig::acoustic_courant, Unit::one,
+        "with implicit, instead of courant: step over the time that sound takes through a cell", positive},
+    Key{"momentum_exchange", &GasConfig::momentum_exchange, kg_per_m3_s,
+        "with ice_classic: drag between each two fluids, times the product of their fractions and the difference of their "
+        "velocities",
+        non_negative},
+    Key{"heat_exchange", &GasConfig::heat_exchange, W_per_m3_K,
+        "heat between each two fluids of a cell, times the product of their fractions and the difference of their temperatures",
+        non_negative},
     Key{"fluid", &GasConfig::fluids, Unit::one, "a gas or liquid", any_value, required},
     Key{"fill", &GasConfig::fills, Unit::one, "what a region holds at the start; later ones lie over earlier ones", any_value,
         required},

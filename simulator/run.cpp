@@ -72,6 +72,9 @@ class Run {
   RunResult begin() {
     log_.line(fmt::format("{}: {} {}s, {} threads", case_.title, count_points(s_), name_of_points(s_), omp_get_max_threads()));
     for (const std::string& warning : set_up_warnings(case_)) log_.line("warning: " + warning);
+    if (s_.gas.implicit)
+      log_.line(
+          "gas.implicit: the pressures are those of an iteration; last digits depend on its tolerance and on the machine");
     return guarded([&] {
       history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), 0);
       add_row();

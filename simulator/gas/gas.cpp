@@ -8,6 +8,7 @@
 #include "simulator/domain/message.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/ghosts.hpp"
+#include "simulator/gas/implicit.hpp"
 #include "simulator/gas/lagrangian.hpp"
 #include "simulator/gas/passages.hpp"
 #include "simulator/gas/remap.hpp"
@@ -66,7 +67,11 @@ std::vector<double> sum_of_ranks(const std::vector<double>& mine, std::size_t nu
 /// The step as it is in `moved`, from what is in `content`; false if a cell does not bear it. Such cells are marked then.
 bool try_step(Gas& gas, double dt, Domain& domain) {
   clear_step(gas.passages);
-  timed(gas, Phase::half_step, [&] { advance_half_step(gas, dt); });
+  if (gas.implicit) {
+    if (!timed(gas, Phase::half_step, [&] { return solve_pressure(gas, dt, domain); })) return false;
+  } else {
+    timed(gas, Phase::half_step, [&] { advance_half_step(gas, dt); });
+  }
   timed(gas, Phase::ghosts, [&] { share_half_step(gas, dt, domain); });
   const auto all_bear = [&](bool borne) { return domain.maximum(borne ? 0.0 : 1.0) == 0.0; };
   if (!all_bear(timed(gas, Phase::lagrangian, [&] { return lagrangian_phase(gas, dt); }))) return false;
@@ -109,6 +114,7 @@ void fill(Gas& gas, const FillingFunction& filling, Domain& domain) {
       for (CellSet* set : {&gas.content, &gas.moved, &gas.next}) write_content(gas, *set, block, c, f);
       write_primitive(gas, block, c, f);
     }
+  if (gas.implicit) open_implicit(gas, domain);
   begin(gas, domain);
   gas.initial = totals(gas, domain);
 }
@@ -121,7 +127,8 @@ void begin(Gas& gas, Domain& domain) {
 
 double largest_step(const Gas& gas, double courant) {
   constexpr double most_swept = 0.5;  // of a cell, through one face
-  return std::min(courant / gas.wave_rate, most_swept / std::max(gas.motion_rate, 1e-300));
+  return std::min((gas.implicit ? gas.acoustic_courant : courant) / gas.wave_rate,
+                  most_swept / std::max(gas.motion_rate, 1e-300));
 }
 
 Outcome advance(Gas& gas, double dt, Domain& domain) {
@@ -200,8 +207,8 @@ std::vector<Totals> passed(const Gas& gas, Domain& domain) {
 }
 
 std::size_t Gas::bytes() const {
-  std::size_t sum = swept.capacity() * sizeof(Lanes);
-  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step}) sum += set->bytes();
+  std::size_t sum = swept.capacity() * sizeof(Lanes) + face_laws.capacity() * sizeof(FaceLaw);
+  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step, &gradient, &unknown}) sum += set->bytes();
   return sum;
 }
 

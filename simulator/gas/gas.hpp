@@ -9,6 +9,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,8 +32,14 @@ using FillingFunction = std::function<Filling(const Vector& position, double tim
 struct Edge {
   std::string name;
   EdgeKind kind = EdgeKind::wall;
-  FillingFunction beyond;  // inflow, non_reflecting; of pressure only the pressure
+  FillingFunction beyond;               // inflow, non_reflecting; of pressure only the pressure; of no_slip the velocity
+  std::optional<double> temperature{};  // K, of a wall of kind no_slip; none: no heat passes it
 };
+
+/// Nothing passes it; also a plane of symmetry, and the axis.
+constexpr bool is_wall(EdgeKind kind) {
+  return kind == EdgeKind::wall || kind == EdgeKind::no_slip;
+}
 
 struct Fluid {
   std::string name;
@@ -40,6 +47,8 @@ struct Fluid {
   double usual_density = 1.0, usual_energy = 1.0;  // kg/m^3, J/kg; a state that it can have, for lanes without this fluid
   double usual_heat = 1.0;                         // J/kg, of its energy
   double least_pressure = -1e300;                  // Pa, at T = 0 and any density
+  double viscosity = 0.0, bulk_viscosity = 0.0;    // Pa s
+  double conductivity = 0.0;                       // W/(m K)
 };
 
 /// Content of a cell, per whole cell, radian or steradian (see Metric). With one fluid its volume and energy are not kept.
@@ -89,6 +98,19 @@ struct Totals {
   double kinetic = 0.0;      // J
 };
 
+/// The velocity of a face as the pressures at its sides make it: free - yield (high - low).
+struct FaceLaw {
+  Lanes free;   // m/s
+  Lanes yield;  // m/(s Pa)
+};
+
+/// What the classic scheme keeps instead of the contents: each fluid has a velocity of its own. See classic.hpp.
+struct ClassicState {
+  double momentum_exchange = 1e15;             // kg/(m^3 s)
+  std::vector<double> mass, volume, internal;  // kg, m^3, J: [fluid][cell]
+  std::vector<Vector> momentum;                // kg m/s
+};
+
 /// Where the time of a step goes.
 enum class Phase { half_step, lagrangian, remap, equilibrium, ghosts, count };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names{
@@ -102,9 +124,17 @@ struct Gas {
   double courant = 0.0;      // 0: what the geometry allows
   double least_mach = 1e-3;  // below, the dissipation of the faces falls no further with the Mach number
 
+  bool implicit = false;                // the pressures of a step are solved for
+  double acoustic_courant = 20.0;       // of its steps then
+  double heat_exchange = 0.0;           // W/(m^3 K), between each two fluids
+  std::optional<ClassicState> classic;  // instead of the scheme above
+
   CellSet content;                                      // at the start of the step
   CellSet moved, next;                                  // after the Lagrangian phase and each sweep of the remap
   CellSet primitive, half_step;                         // scratch
+  CellSet gradient;                                     // scratch of viscous stresses, 1/s: [component][axis]
+  CellSet unknown;                                      // implicit: number of each cell among the unknowns; -1: none
+  std::vector<FaceLaw> face_laws;                       // implicit: [block][axis][pencil][face]
   std::vector<Lanes> swept;                             // m^3 that pass the faces in a step: [block][axis][pencil][face]
   std::vector<Passage> passages;                        // in Morton order of the blocks
   std::vector<std::array<std::int32_t, 7>> passage_of;  // of each block and side, and of gravity; -1: none
@@ -112,8 +142,9 @@ struct Gas {
   double time = 0.0;  // s
   std::int64_t step = 0;
   Totals initial;
-  double wave_rate = 0.0;                                                // 1/s, largest sum over the axes of (|u| + c)/h
-  double motion_rate = 0.0;                                              // 1/s, largest |u|/h of one axis
+  double wave_rate = 0.0;       // 1/s, largest sum over the axes of (|u| + c)/h
+  double motion_rate = 0.0;     // 1/s, largest |u|/h of one axis
+  double diffusion_rate = 0.0;  // 1/s, largest sum over the axes of 2 (diffusivity)/h^2
   std::array<double, static_cast<std::size_t>(Phase::count)> seconds{};  // of wall time, by phase, in this process
   std::int64_t flattened = 0;  // slopes that were taken back so that no cell loses more energy than it has
   bool careful = false;        // some cells do without slopes in this step, or it would leave them without volume or heat
@@ -122,12 +153,14 @@ struct Gas {
   bool empty() const { return fluids.empty(); }
   int dimensions() const { return cells.dimensions; }
   std::size_t bytes() const;
-  Lanes* swept_faces(std::size_t block, int axis, int pencil) {
+  /// Where the faces of a pencil begin among those of all blocks.
+  std::size_t first_face(std::size_t block, int axis, int pencil) const {
     const std::size_t pencils = dimensions() == 3 ? 8 : 1;
-    return swept.data() + ((block * static_cast<std::size_t>(dimensions()) + static_cast<std::size_t>(axis)) * pencils +
-                           static_cast<std::size_t>(pencil)) *
-                              line_faces;
+    return ((block * static_cast<std::size_t>(dimensions()) + static_cast<std::size_t>(axis)) * pencils +
+            static_cast<std::size_t>(pencil)) *
+           line_faces;
   }
+  Lanes* swept_faces(std::size_t block, int axis, int pencil) { return swept.data() + first_face(block, axis, pencil); }
   /// Quantities of a fluid's content.
   int fluid_quantities() const { return fluids.size() == 1 ? 1 : 3; }
   int contents() const { return Content::fluids(dimensions()) + static_cast<int>(fluids.size()) * fluid_quantities(); }

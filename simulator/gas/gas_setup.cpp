@@ -33,8 +33,13 @@ Gas make_gas(const Case& c, Domain& domain) {
   Gas gas;
   if (!c.gas) return gas;
   const GasConfig& config = *c.gas;
-  for (const FluidConfig& fluid : config.fluids) gas.fluids.push_back({fluid.name, fluid.material.material.equation_of_state});
+  for (const FluidConfig& fluid : config.fluids) {
+    gas.fluids.push_back({fluid.name, fluid.material.material.equation_of_state});
+    Fluid& made = gas.fluids.back();
+    made.viscosity = fluid.viscosity, made.bulk_viscosity = fluid.bulk_viscosity, made.conductivity = fluid.conductivity;
+  }
   gas.gravity = c.gravity, gas.courant = config.courant, gas.least_mach = config.least_mach;
+  gas.implicit = config.implicit, gas.acoustic_courant = config.acoustic_courant, gas.heat_exchange = config.heat_exchange;
   std::array<int, 3> lower{}, upper{};
   for (std::size_t a = 0; a < 3; ++a) {
     lower[a] = static_cast<int>(std::lround(config.lower[a] / c.cell_size));
@@ -49,6 +54,8 @@ Gas make_gas(const Case& c, Domain& domain) {
     Filling beyond;
     if (edge.kind == EdgeKind::pressure)
       beyond.pressure = edge.pressure;
+    else if (edge.kind == EdgeKind::no_slip)
+      beyond.velocity = edge.velocity, made.temperature = edge.temperature;
     else if (edge.kind != EdgeKind::wall && edge.kind != EdgeKind::periodic)
       beyond = filling_of(config, gas.fluids, edge);
     made.beyond = [beyond](const Vector&, double) { return beyond; };

@@ -37,7 +37,7 @@ void fill_ghosts(const Gas& gas, CellSet& set, int first_component, F&& otherwis
   for (std::size_t s = 0; s < gas.cells.sides.size(); ++s) {
     const GhostSide& side = gas.cells.sides[s];
     const Edge& edge = gas.edges[s];
-    if (edge.kind == EdgeKind::wall)
+    if (is_wall(edge.kind))
       copy(set, side.mirrored, first_component + side.axis);
     else if (edge.kind == EdgeKind::periodic)
       copy(set, side.wrapped, -1);
@@ -74,7 +74,7 @@ void share_primitives(Gas& gas, double time, Domain& domain) {
     }
   });
   for (std::size_t s = 0; s < gas.cells.sides.size(); ++s)
-    if (gas.edges[s].kind == EdgeKind::wall) continue_column(gas, gas.cells.sides[s]);
+    if (is_wall(gas.edges[s].kind)) continue_column(gas, gas.cells.sides[s]);
 }
 
 void share_half_step(Gas& gas, double dt, Domain& domain) {

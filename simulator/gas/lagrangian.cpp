@@ -3,82 +3,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "simulator/gas/acoustic.hpp"
 #include "simulator/gas/equilibrium.hpp"
-#include "simulator/gas/limiter.hpp"
+#include "simulator/gas/implicit.hpp"
 #include "simulator/gas/passages.hpp"
 #include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
-
-/// Slope of the pressure less its hydrostatic part.
-Lanes pressure_slope(const Pencil& p, const Pencil& density, std::size_t c, double half_head) {
-  if (half_head == 0.0) return slope(p, c);
-  const Lanes below = p[c - 1] + half_head * (density[c - 1] + density[c]);
-  const Lanes above = p[c + 1] - half_head * (density[c] + density[c + 1]);
-  return monotonised_central(below, p[c], above);
-}
-
-/// The state that a cell sends to one of its faces.
-struct FaceSide {
-  Lanes velocity, pressure, density;
-};
-FaceSide face_side(const Pencil& density, const Pencil& pressure, const Pencil& velocity, const Pencil& half_pressure,
-                   const Pencil& half_velocity, std::size_t c, double towards, double half_head, const LanesMask& plain) {
-  const Lanes head = Lanes(2.0 * half_head) * density[c];
-  FaceSide s;
-  s.density = density[c] + towards * slope(density, c);
-  s.pressure = pressure[c] + towards * (pressure_slope(pressure, density, c, half_head) + head) + half_pressure[c];
-  s.velocity = velocity[c] + towards * slope(velocity, c) + half_velocity[c];
-  // Where the extrapolation nearly empties the cell it is not to be trusted.
-  constexpr double least = 1e-3;
-  const LanesMask bad = plain | (s.density < least * density[c]) | ((s.pressure < least * pressure[c]) & (pressure[c] > 0.0));
-  s.density = select(bad, density[c], s.density);
-  s.pressure = select(bad, pressure[c], s.pressure);
-  s.velocity = select(bad, velocity[c], s.velocity);
-  return s;
-}
-
-struct Star {
-  Lanes velocity, pressure;
-};
-/// Acoustic solution between two states, with the impedance of a shock where they approach. At low Mach numbers the velocity
-/// jump adds no more pressure than the motion itself would: otherwise slow flow is damped (Dellacherie, J. Comput. Phys. 229
-/// (2010) 978).
-Star star(const FaceSide& L, const FaceSide& R, const Lanes& sound_L, const Lanes& sound_R, const Lanes& shock,
-          const Lanes& speed, double least_mach) {
-  const Lanes closing = max(Lanes(L.velocity - R.velocity), Lanes(0.0));
-  const Lanes stiffening = shock * closing;
-  const Lanes Z_L = L.density * (sound_L + stiffening), Z_R = R.density * (sound_R + stiffening);
-  const Lanes sum = 1.0 / (Z_L + Z_R);
-  const Lanes slower = min(sound_L, sound_R);
-  const LanesMask shocked =
-      (abs(R.pressure - L.pressure) > 0.1 * min(abs(L.pressure), abs(R.pressure))) | (closing > 0.1 * slower);
-  // A wave of sound brings as much pressure as its velocity times the impedance; in slow flow that bends around there is next
-  // to none. Waves keep their damping, or their fronts become steps; the square, because of the flow a part of its Mach number
-  // stays.
-  const Lanes waves =
-      abs(R.pressure - L.pressure) / max(Lanes(2.0 * (Z_L * Z_R) * sum * abs(R.velocity - L.velocity)), Lanes(1e-300));
-  const Lanes mach = min(max(max(Lanes(speed / slower), Lanes(least_mach)), waves * waves), Lanes(1.0));
-  const Lanes damping = select(shocked, Lanes(1.0), mach);
-  // In this order the mirror image of the two sides gives the mirror image of the face, to the last bit.
-  return {((Z_L * L.velocity + Z_R * R.velocity) + (L.pressure - R.pressure)) * sum,
-          ((Z_R * L.pressure + Z_L * R.pressure) - damping * (Z_L * Z_R) * (R.velocity - L.velocity)) * sum};
-}
-
-/// Mean area of a face across x that moves along x: where the area widens with x, the face does so on its way.
-Lanes area_on_the_way(const Cells& cells, const Lanes& area, const Lanes& way) {
-  switch (cells.geometry) {
-    case Geometry::cylindrical_1d:
-      return area + 0.5 * way;
-    case Geometry::axisymmetric:
-      return area + (0.5 * cells.cell_size) * way;
-    case Geometry::spherical_1d:
-      return area + sqrt(area) * way + (1.0 / 3.0) * way * way;
-    default:
-      return area;
-  }
-}
 
 template <int D>
 void half_step_of(Gas& gas, std::size_t block, double dt) {
@@ -120,44 +52,60 @@ void half_step_of(Gas& gas, std::size_t block, double dt) {
   }
 }
 
+/// Velocity and pressure of the faces of a pencil, by the waves between its cells.
+template <int D>
+void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FacePencil& face_velocity, FacePencil& face_pressure) {
+  const Cells& cells = gas.cells;
+  const double half_head = 0.5 * gas.gravity[static_cast<std::size_t>(axis)] * cells.cell_size;
+  Pencil density, pressure, sound, gruneisen, velocity, half_pressure, half_velocity, speed, plain;
+  if (gas.careful) load<D>(cells, gas.half_step, block, HalfStep::plain(D), axis, n, plain);
+  load<D>(cells, gas.primitive, block, Primitive::density, axis, n, density);
+  load<D>(cells, gas.primitive, block, Primitive::pressure, axis, n, pressure);
+  load<D>(cells, gas.primitive, block, Primitive::sound_speed, axis, n, sound);
+  load<D>(cells, gas.primitive, block, Primitive::gruneisen, axis, n, gruneisen);
+  load<D>(cells, gas.primitive, block, Primitive::velocity + axis, axis, n, velocity);
+  load<D>(cells, gas.half_step, block, HalfStep::pressure, axis, n, half_pressure);
+  load<D>(cells, gas.half_step, block, HalfStep::velocity + axis, axis, n, half_velocity);
+  load_squared_speed<D>(gas, block, axis, n, velocity, speed);
+  const auto face = [&](std::size_t f, double least_mach) {
+    const std::size_t l = ring + f - 1, r = ring + f;
+    const LanesMask first_order = gas.careful ? plain[l] + plain[r] > 0.0 : LanesMask(false);
+    const FaceSide L = face_side(density, pressure, velocity, half_pressure, half_velocity, l, 0.5, half_head, first_order);
+    const FaceSide R = face_side(density, pressure, velocity, half_pressure, half_velocity, r, -0.5, half_head, first_order);
+    const Lanes shock = 1.0 + 0.5 * max(gruneisen[l], gruneisen[r]);
+    return star(L, R, sound[l], sound[r], shock, sqrt(max(speed[l], speed[r])), least_mach);
+  };
+  for (std::size_t f = 0; f < line_faces; ++f) {
+    const Star s = face(f, gas.least_mach);
+    face_velocity[f] = s.velocity, face_pressure[f] = s.pressure;
+  }
+  // What is taken from the waves at a side where they are to leave, comes back as another wave.
+  for_each_passage(gas, block, axis, n, [&](const Passage& passage, double, std::uint8_t lanes) {
+    if (gas.edges[static_cast<std::size_t>(passage.side)].kind != EdgeKind::non_reflecting) return;
+    const auto f = static_cast<std::size_t>(passage.face);
+    const Star s = face(f, 1.0);
+    for (int l = 0; l < 8; ++l)
+      if (lanes >> l & 1) face_velocity[f].set(l, s.velocity[l]), face_pressure[f].set(l, s.pressure[l]);
+  });
+}
+
 template <int D>
 bool move(Gas& gas, std::size_t block, double dt) {
   using Shape = BlockShape<D>;
   const Cells& cells = gas.cells;
-  constexpr std::size_t faces = line_faces;
   for (int axis = 0; axis < D; ++axis) {
-    const double half_head = 0.5 * gas.gravity[static_cast<std::size_t>(axis)] * cells.cell_size;
     for (int n = 0; n < Shape::pencils; ++n) {
-      Pencil density, pressure, sound, gruneisen, velocity, half_pressure, half_velocity, speed, plain;
-      if (gas.careful) load<D>(cells, gas.half_step, block, HalfStep::plain(D), axis, n, plain);
-      load<D>(cells, gas.primitive, block, Primitive::density, axis, n, density);
-      load<D>(cells, gas.primitive, block, Primitive::pressure, axis, n, pressure);
-      load<D>(cells, gas.primitive, block, Primitive::sound_speed, axis, n, sound);
-      load<D>(cells, gas.primitive, block, Primitive::gruneisen, axis, n, gruneisen);
-      load<D>(cells, gas.primitive, block, Primitive::velocity + axis, axis, n, velocity);
-      load<D>(cells, gas.half_step, block, HalfStep::pressure, axis, n, half_pressure);
-      load<D>(cells, gas.half_step, block, HalfStep::velocity + axis, axis, n, half_velocity);
-      for (std::size_t c = 0; c < reach; ++c) speed[c] = velocity[c] * velocity[c];
-      for (int a = 0; a < D; ++a) {
-        if (a == axis) continue;
-        Pencil across;
-        load<D>(cells, gas.primitive, block, Primitive::velocity + a, axis, n, across);
-        for (std::size_t c = 0; c < reach; ++c) speed[c] += across[c] * across[c];
-      }
+      FacePencil face_velocity, face_pressure, flow;  // flow: volume per time
+      if (gas.implicit)
+        solved_faces<D>(gas, block, axis, n, dt, face_velocity, face_pressure);
+      else
+        acoustic_faces<D>(gas, block, axis, n, face_velocity, face_pressure);
       PencilMetric metric;
       load_metric<D>(cells, block, axis, n, metric);
-      std::array<Lanes, faces> face_pressure, flow;  // flow: volume per time
       Lanes* swept = gas.swept_faces(block, axis, n);
-      for (std::size_t f = 0; f < faces; ++f) {
-        const std::size_t l = ring + f - 1, r = ring + f;
-        const LanesMask first_order = gas.careful ? plain[l] + plain[r] > 0.0 : LanesMask(false);
-        const FaceSide L = face_side(density, pressure, velocity, half_pressure, half_velocity, l, 0.5, half_head, first_order);
-        const FaceSide R =
-            face_side(density, pressure, velocity, half_pressure, half_velocity, r, -0.5, half_head, first_order);
-        const Lanes shock = 1.0 + 0.5 * max(gruneisen[l], gruneisen[r]);
-        const Star s = star(L, R, sound[l], sound[r], shock, sqrt(max(speed[l], speed[r])), gas.least_mach);
-        if (axis == 0) metric.area[f] = area_on_the_way(cells, metric.area[f], dt * s.velocity);
-        face_pressure[f] = s.pressure, flow[f] = metric.area[f] * s.velocity;
+      for (std::size_t f = 0; f < line_faces; ++f) {
+        if (axis == 0) metric.area[f] = area_on_the_way(cells, metric.area[f], dt * face_velocity[f]);
+        flow[f] = metric.area[f] * face_velocity[f];
         swept[f] = dt * flow[f];
       }
       // The impulse of the pressure on the sides of a widening cell is that of the mean of its two faces.

@@ -1,0 +1,229 @@
+#include "simulator/gas/implicit.hpp"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+#include <stdexcept>
+
+#include "simulator/gas/acoustic.hpp"
+#include "simulator/gas/ghosts.hpp"
+#include "simulator/gas/passages.hpp"
+#include "simulator/parallel.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+constexpr double centring = 0.5;
+constexpr double solver_tolerance = 1e-9;  // residual over right side
+
+using Entry = Eigen::Triplet<double, int>;
+using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+
+/// What a face's law and its pressure are made of.
+struct FaceStates {
+  Pencil density, pressure, sound, gruneisen, velocity, speed, change, still;
+};
+template <int D>
+void load_states(const Gas& gas, std::size_t block, int axis, int n, FaceStates& s) {
+  load<D>(gas.cells, gas.primitive, block, Primitive::density, axis, n, s.density);
+  load<D>(gas.cells, gas.primitive, block, Primitive::pressure, axis, n, s.pressure);
+  load<D>(gas.cells, gas.primitive, block, Primitive::sound_speed, axis, n, s.sound);
+  load<D>(gas.cells, gas.primitive, block, Primitive::gruneisen, axis, n, s.gruneisen);
+  load<D>(gas.cells, gas.primitive, block, Primitive::velocity + axis, axis, n, s.velocity);
+  load<D>(gas.cells, gas.half_step, block, HalfStep::pressure, axis, n, s.change);
+  load_squared_speed<D>(gas, block, axis, n, s.velocity, s.speed);
+  s.still.fill(Lanes(0.0));
+}
+
+/// The jumps that the slopes leave at a face damp it. That part is explicit, and is cut down to what a long step can bear.
+template <int D>
+Lanes bearable(const Gas& gas, const Lanes& sound, double dt) {
+  return min(Lanes(0.5 * gas.cells.cell_size / (D * dt)) / sound, Lanes(1.0));
+}
+
+template <int D>
+void find_laws(Gas& gas, std::size_t block, double dt) {
+  const double h = gas.cells.cell_size;
+  for (int axis = 0; axis < D; ++axis) {
+    const double g = gas.gravity[static_cast<std::size_t>(axis)], half_head = 0.5 * g * h;
+    for (int n = 0; n < BlockShape<D>::pencils; ++n) {
+      FaceStates s;
+      load_states<D>(gas, block, axis, n, s);
+      FaceLaw* laws = gas.face_laws.data() + gas.first_face(block, axis, n);
+      for (std::size_t f = 0; f < line_faces; ++f) {
+        const std::size_t l = ring + f - 1, r = ring + f;
+        const FaceSide L = face_side(s.density, s.pressure, s.velocity, s.still, s.still, l, 0.5, half_head);
+        const FaceSide R = face_side(s.density, s.pressure, s.velocity, s.still, s.still, r, -0.5, half_head);
+        const FaceWaves waves = face_waves(L, R, s.sound[l], s.sound[r], 1.0 + 0.5 * max(s.gruneisen[l], s.gruneisen[r]),
+                                           sqrt(max(s.speed[l], s.speed[r])), gas.least_mach);
+        const Lanes both = s.density[l] + s.density[r];
+        const Lanes part = bearable<D>(gas, max(s.sound[l], s.sound[r]), dt);
+        laws[f].free = (s.density[l] * L.velocity + s.density[r] * R.velocity) / both +
+                       part * waves.sum * (L.pressure - R.pressure) + centring * dt * g;
+        laws[f].yield = (2.0 * centring * dt / h) / both;
+      }
+      for_each_passage(gas, block, axis, n, [&](Passage& passage, double sign, std::uint8_t) {
+        const auto f = static_cast<std::size_t>(passage.face);
+        const std::size_t outside = sign > 0.0 ? ring + f - 1 : ring + f, inside = sign > 0.0 ? ring + f : ring + f - 1;
+        FaceLaw law = laws[f];
+        switch (gas.edges[static_cast<std::size_t>(passage.side)].kind) {
+          case EdgeKind::wall:
+          case EdgeKind::no_slip:
+            law = {Lanes(0.0), Lanes(0.0)};
+            break;
+          case EdgeKind::inflow:
+            law = {s.velocity[outside], Lanes(0.0)};
+            break;
+          case EdgeKind::non_reflecting:  // the pressure inside is that of an outgoing wave
+            law = {s.velocity[outside], 1.0 / (s.density[inside] * s.sound[inside])};
+            break;
+          case EdgeKind::pressure:
+          case EdgeKind::periodic:
+            return;
+        }
+        // Other lines of the pencil pass the same face number within the box only in one dimension.
+        for (int lane = 0; lane < 8; ++lane)
+          if (passage.lanes[static_cast<std::size_t>(n)] >> lane & 1)
+            laws[f].free.set(lane, law.free[lane]), laws[f].yield.set(lane, law.yield[lane]);
+      });
+    }
+  }
+}
+
+/// The rows of a block's cells.
+template <int D>
+void assemble(const Gas& gas, std::size_t block, double dt, std::vector<Entry>& entries, Eigen::VectorXd& right_side) {
+  const double weight = centring * dt;
+  for (int axis = 0; axis < D; ++axis)
+    for (int n = 0; n < BlockShape<D>::pencils; ++n) {
+      Pencil unknown, density, sound, pressure, change;
+      load<D>(gas.cells, gas.unknown, block, 0, axis, n, unknown);
+      load<D>(gas.cells, gas.primitive, block, Primitive::density, axis, n, density);
+      load<D>(gas.cells, gas.primitive, block, Primitive::sound_speed, axis, n, sound);
+      load<D>(gas.cells, gas.primitive, block, Primitive::pressure, axis, n, pressure);
+      load<D>(gas.cells, gas.half_step, block, HalfStep::pressure, axis, n, change);
+      PencilMetric metric;
+      load_metric<D>(gas.cells, block, axis, n, metric);
+      const FaceLaw* laws = gas.face_laws.data() + gas.first_face(block, axis, n);
+      FacePencil flow, conductance;
+      for (std::size_t f = 0; f < line_faces; ++f) {
+        const Lanes velocity = laws[f].free - laws[f].yield * (pressure[ring + f] - pressure[ring + f - 1]);
+        flow[f] = weight * metric.area[f] * velocity, conductance[f] = weight * metric.area[f] * laws[f].yield;
+      }
+      for (std::size_t c = ring; c < ring + line; ++c) {
+        const std::size_t f = c - ring;
+        const Lanes stiffness = metric.volume[c] / (density[c] * sound[c] * sound[c]);
+        for (int l = 0; l < 8; ++l) {
+          const int row = static_cast<int>(unknown[c][l]);
+          if (row < 0) continue;
+          double diagonal = conductance[f][l] + conductance[f + 1][l], known = flow[f][l] - flow[f + 1][l];
+          if (axis == 0) diagonal += stiffness[l];
+          const auto neighbour = [&](std::size_t cell, double coefficient) {
+            const int column = static_cast<int>(unknown[cell][l]);
+            if (column >= 0)
+              entries.emplace_back(row, column, -coefficient);
+            else
+              known += coefficient * change[cell][l];
+          };
+          neighbour(c - 1, conductance[f][l]), neighbour(c + 1, conductance[f + 1][l]);
+          entries.emplace_back(row, row, diagonal);
+          right_side[row] += known;
+        }
+      }
+    }
+}
+
+}  // namespace
+
+void open_implicit(Gas& gas, const Domain& domain) {
+  if (domain.size() > 1) throw std::runtime_error("gas.implicit: the pressure is solved for in one process only");
+  gas.face_laws.resize(gas.swept.size());
+  gas.unknown = CellSet(1, gas.cells.packs());
+  gas.unknown.resize(gas.cells.blocks.size());
+  double next = 0.0;
+  for (std::size_t block = 0; block < gas.cells.blocks.size(); ++block)
+    for (int c = 0; c < 8 * gas.cells.packs(); ++c)
+      gas.unknown.cell(block, 0, c) = gas.cells.contains(gas.cells.index(block, c)) ? next++ : -1.0;
+  for (std::size_t s = 0; s < gas.cells.sides.size(); ++s)
+    if (gas.edges[s].kind == EdgeKind::periodic)
+      for (const Ghost& g : gas.cells.sides[s].wrapped)
+        gas.unknown.cell(static_cast<std::size_t>(g.block), 0, g.cell) =
+            gas.unknown.cell(static_cast<std::size_t>(g.source_block), 0, g.source_cell);
+}
+
+bool solve_pressure(Gas& gas, double dt, Domain& domain) {
+  const auto in_dimensions = [&]<class F>(F&& f) {
+    gas.dimensions() == 1   ? f(std::integral_constant<int, 1>{})
+    : gas.dimensions() == 2 ? f(std::integral_constant<int, 2>{})
+                            : f(std::integral_constant<int, 3>{});
+  };
+  const std::vector<std::int32_t>& mine = gas.cells.mine;
+  for (const std::int32_t b : mine)
+    for (int q = 0; q < HalfStep::plain(gas.dimensions()); ++q)
+      std::fill_n(gas.half_step.at(static_cast<std::size_t>(b), q), gas.cells.packs(), Lanes(0.0));
+  share_half_step(gas, dt, domain);  // what lies beyond the edges
+
+  const auto cells = static_cast<Eigen::Index>(gas.cells.count());
+  std::vector<std::vector<Entry>> entries(mine.size());
+  Eigen::VectorXd right_side = Eigen::VectorXd::Zero(cells);
+  in_dimensions([&](auto D) {
+    parallel_for_blocks(mine.size(), [&](std::size_t i) {
+      const auto block = static_cast<std::size_t>(mine[i]);
+      find_laws<D()>(gas, block, dt);
+      assemble<D()>(gas, block, dt, entries[i], right_side);
+    });
+  });
+  std::vector<Entry> all;
+  for (const auto& of_block : entries) all.insert(all.end(), of_block.begin(), of_block.end());
+  Matrix matrix(cells, cells);
+  matrix.setFromTriplets(all.begin(), all.end());
+  Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> solver;
+  solver.setTolerance(solver_tolerance);
+  solver.compute(matrix);
+  const Eigen::VectorXd change = solver.solve(right_side);
+  if (solver.info() != Eigen::Success) return false;
+  for (const std::int32_t b : mine) {
+    const auto block = static_cast<std::size_t>(b);
+    for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
+      const auto number = static_cast<Eigen::Index>(gas.unknown.cell(block, 0, c));
+      if (number >= 0) gas.half_step.cell(block, HalfStep::pressure, c) = change[number];
+    }
+  }
+  return true;
+}
+
+template <int D>
+void solved_faces(Gas& gas, std::size_t block, int axis, int n, double dt, FacePencil& velocity, FacePencil& pressure) {
+  const double half_head = 0.5 * gas.gravity[static_cast<std::size_t>(axis)] * gas.cells.cell_size;
+  FaceStates s;
+  load_states<D>(gas, block, axis, n, s);
+  const FaceLaw* laws = gas.face_laws.data() + gas.first_face(block, axis, n);
+  for (std::size_t f = 0; f < line_faces; ++f) {
+    const std::size_t l = ring + f - 1, r = ring + f;
+    const FaceSide L = face_side(s.density, s.pressure, s.velocity, s.change, s.still, l, 0.5, half_head);
+    const FaceSide R = face_side(s.density, s.pressure, s.velocity, s.change, s.still, r, -0.5, half_head);
+    const FaceWaves waves = face_waves(L, R, s.sound[l], s.sound[r], 1.0 + 0.5 * max(s.gruneisen[l], s.gruneisen[r]),
+                                       sqrt(max(s.speed[l], s.speed[r])), gas.least_mach);
+    const Lanes part = bearable<D>(gas, max(s.sound[l], s.sound[r]), dt) * waves.damping;
+    velocity[f] = laws[f].free - laws[f].yield * ((s.pressure[r] + s.change[r]) - (s.pressure[l] + s.change[l]));
+    // Without the slopes: with those of the velocity the cells would feel a steeper wave than the matrix lets their faces feel,
+    // and some would grow.
+    const Lanes low = s.pressure[l] + s.change[l] + half_head * s.density[l];
+    const Lanes high = s.pressure[r] + s.change[r] - half_head * s.density[r];
+    pressure[f] = (s.density[r] * low + s.density[l] * high) / (s.density[l] + s.density[r]) -
+                  part * (waves.Z_L * waves.Z_R) * waves.sum * (R.velocity - L.velocity);
+  }
+  for_each_passage(gas, block, axis, n, [&](Passage& passage, double sign, std::uint8_t lanes) {
+    const EdgeKind kind = gas.edges[static_cast<std::size_t>(passage.side)].kind;
+    if (kind != EdgeKind::inflow && kind != EdgeKind::non_reflecting) return;
+    const auto f = static_cast<std::size_t>(passage.face);
+    const std::size_t inside = sign > 0.0 ? ring + f : ring + f - 1;
+    for (int l = 0; l < 8; ++l)
+      if (lanes >> l & 1) pressure[f].set(l, s.pressure[inside][l] + s.change[inside][l]);
+  });
+}
+
+template void solved_faces<1>(Gas&, std::size_t, int, int, double, FacePencil&, FacePencil&);
+template void solved_faces<2>(Gas&, std::size_t, int, int, double, FacePencil&, FacePencil&);
+template void solved_faces<3>(Gas&, std::size_t, int, int, double, FacePencil&, FacePencil&);
+
+}  // namespace brisance::simulator::gas

@@ -1,0 +1,273 @@
+// The implicit option: long steps keep what the short ones keep, and what is slow stays as it is.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "tests/simulator/gas/exact_riemann.hpp"
+#include "tests/simulator/gas/exact_solutions.hpp"
+#include "tests/simulator/gas/set_up.hpp"
+#include "tests/simulator/virtual_ranks.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+using set_up::Stepper;
+
+Gas implicit_box(Geometry geometry, double cell_size, const std::array<int, 3>& lower, const std::array<int, 3>& upper,
+                 std::vector<Fluid> fluids, double acoustic_courant, Domain& domain) {
+  Gas gas = set_up::box(geometry, cell_size, lower, upper, std::move(fluids), domain);
+  gas.implicit = true, gas.acoustic_courant = acoustic_courant;
+  return gas;
+}
+
+// Slow flow ------------------------------------------------------------------------------------------------------------
+
+/// Part of its kinetic energy that Gresho's vortex loses on 64 x 64 cells; sound passes 20 cells in a step.
+double loss_of_gresho(double mach, double time) {
+  constexpr int cells = 64;
+  constexpr double passed = 20.0;
+  const GreshoVortex vortex{1.4, mach};
+  const auto domain = single_process();
+  // The Courant number counts both axes.
+  Gas gas = implicit_box(Geometry::plane, 1.0 / cells, {-cells / 2, -cells / 2, 0}, {cells / 2, cells / 2, 0},
+                         {set_up::ideal_gas()}, 2.0 * passed, *domain);
+  gas.edges.assign(4, set_up::around());
+  fill(
+      gas,
+      [&](const Vector& x, double) {
+        const PlaneGasState w = vortex.at(x[0], x[1]);
+        return Filling{0, w.density, w.pressure, {w.velocity_x, w.velocity_y, 0.0}};
+      },
+      *domain);
+  const double before = totals(gas, *domain).kinetic;
+  Stepper().to(gas, time, *domain);
+  return 1.0 - totals(gas, *domain).kinetic / before;
+}
+constexpr double most_lost = 0.02;
+
+TEST(ImplicitGresho, LosesLittleAtMach001) {
+  const double loss = loss_of_gresho(0.01, 1.0);
+  RecordProperty("loss", std::to_string(loss));
+  EXPECT_LT(loss, most_lost);
+  EXPECT_GT(loss, 0.0);
+}
+
+/// 6400 steps make the turn of the other Mach numbers; the program makes a tenth of it unless BRISANCE_LONG_TESTS is set.
+TEST(ImplicitGresho, LosesLittleAtMach0001) {
+  const bool all_of_it = std::getenv("BRISANCE_LONG_TESTS") != nullptr;
+  const double loss = loss_of_gresho(0.001, all_of_it ? 1.0 : 0.1);
+  RecordProperty("loss", std::to_string(loss));
+  EXPECT_LT(loss, most_lost * (all_of_it ? 1.0 : 0.2));
+  EXPECT_GT(loss, 0.0);
+}
+
+// Sound ----------------------------------------------------------------------------------------------------------------
+
+TEST(ImplicitSound, OfAnUnresolvedPulseFadesAndNothingIsLost) {
+  constexpr int cells = 128;
+  constexpr double height = 1e-3;
+  const auto domain = single_process();
+  Gas gas = implicit_box(Geometry::planar_1d, 1.0 / cells, {}, {cells, 0, 0}, {set_up::ideal_gas()}, 20.0, *domain);
+  fill(
+      gas,
+      [](const Vector& x, double) {
+        const double p = 1.0 + height * std::exp(-std::pow((x[0] - 0.5) / 0.02, 2));
+        return Filling{0, std::pow(p, 1.0 / 1.4), p, {}};
+      },
+      *domain);
+  const Totals before = totals(gas, *domain);
+  Stepper().to(gas, 5.0, *domain);
+  double highest = 0.0;
+  set_up::for_each_cell(gas, [&](const set_up::Cell& c) { highest = std::max(highest, std::abs(c.pressure - 1.0)); });
+  RecordProperty("height", std::to_string(highest / height));
+  EXPECT_LT(highest, 0.5 * height);
+  constexpr double round_off = 1e-14;
+  const Totals after = totals(gas, *domain);
+  EXPECT_LT(set_up::relative_change(before.mass[0], after.mass[0]), round_off);
+  EXPECT_LT(set_up::relative_change(before.energy, after.energy), round_off);
+}
+
+/// With steps that resolve it, sound travels as it does between neighbours: second order.
+TEST(ImplicitSound, OfAWaveIsSecondOrder) {
+  std::vector<double> errors;
+  constexpr double height = 1e-4, time = 1.0;
+  const double c = std::sqrt(1.4);
+  for (const int cells : {32, 64, 128}) {
+    const auto domain = single_process();
+    Gas gas = implicit_box(Geometry::planar_1d, 1.0 / cells, {}, {cells, 0, 0}, {set_up::ideal_gas()}, 0.8, *domain);
+    gas.edges.assign(2, set_up::around());
+    const auto wave = [&](double x, double t) { return height * std::sin(2.0 * M_PI * (x - c * t)); };
+    fill(
+        gas,
+        [&](const Vector& x, double) {
+          const double w = wave(x[0], 0.0);
+          return Filling{0, 1.0 + w, std::pow(1.0 + w, 1.4), {c * w, 0.0, 0.0}};
+        },
+        *domain);
+    Stepper{.first = 1.0}.to(gas, time, *domain);
+    double sum = 0.0;
+    set_up::for_each_cell(gas, [&](const set_up::Cell& at) {
+      sum += std::abs(at.velocity[0] / c - wave(at.centre[0], time)) / (height * cells);
+    });
+    errors.push_back(sum);
+  }
+  RecordProperty("errors", std::to_string(errors[0]) + " " + std::to_string(errors[1]) + " " + std::to_string(errors[2]));
+  EXPECT_GE(std::log2(errors[1] / errors[2]), 1.8) << errors[0] << ", " << errors[1] << ", " << errors[2];
+}
+
+// Shocks ---------------------------------------------------------------------------------------------------------------
+
+double density_error_of_sod(bool implicit, double courant, double& energy_change) {
+  constexpr int cells = 200;
+  constexpr double end = 0.2;
+  const auto domain = single_process();
+  Gas gas = set_up::box(Geometry::planar_1d, 1.0 / cells, {}, {cells, 0, 0}, {set_up::ideal_gas()}, *domain);
+  gas.implicit = implicit, gas.acoustic_courant = courant;
+  const GasState left{1.0, 0.0, 1.0}, right{0.125, 0.0, 0.1};
+  fill(
+      gas,
+      [&](const Vector& x, double) {
+        const GasState& w = x[0] < 0.5 ? left : right;
+        return Filling{0, w.density, w.pressure, {}};
+      },
+      *domain);
+  const double before = totals(gas, *domain).energy;
+  Stepper().to(gas, end, *domain);
+  energy_change = set_up::relative_change(before, totals(gas, *domain).energy);
+  const ExactRiemann exact(left, right, 1.4);
+  return set_up::mean_errors(gas, [&](double from, double to) { return exact.average(from, to, end, 0.5); }).density;
+}
+
+TEST(ImplicitSod, WithShortStepsIsAsGoodAsTheWaves) {
+  double energy_change = 0.0;
+  const double of_waves = density_error_of_sod(false, 0.5, energy_change);
+  const double error = density_error_of_sod(true, 0.5, energy_change);
+  RecordProperty("errors", std::to_string(of_waves) + " " + std::to_string(error));
+  constexpr double goal = 3.0e-3;  // of the waves at 200 cells
+  EXPECT_LT(error, goal);
+  EXPECT_LT(energy_change, 1e-13);
+}
+
+// Books ----------------------------------------------------------------------------------------------------------------
+
+struct Place {
+  const char* name;
+  Geometry geometry;
+  std::array<int, 3> lower, upper;
+};
+const std::vector<Place> places = {{"planar_1d", Geometry::planar_1d, {0, 0, 0}, {70, 0, 0}},
+                                   {"cylindrical_1d", Geometry::cylindrical_1d, {0, 0, 0}, {50, 0, 0}},
+                                   {"spherical_1d", Geometry::spherical_1d, {0, 0, 0}, {50, 0, 0}},
+                                   {"plane", Geometry::plane, {0, 0, 0}, {20, 20, 0}},
+                                   {"axisymmetric", Geometry::axisymmetric, {0, 0, 0}, {20, 20, 0}},
+                                   {"three_dimensional", Geometry::three_dimensional, {0, 0, 0}, {12, 12, 12}}};
+
+/// Warm air in cold water, at a higher pressure. What leaves a cell enters the next one, whatever the solver says.
+TEST(ImplicitBox, OfTwoFluidsKeepsMassMomentumAndEnergyInEveryGeometry) {
+  constexpr double round_off = 1e-13;
+  for (const Place& place : places) {
+    const auto domain = single_process();
+    Gas gas = implicit_box(
+        place.geometry, 0.01, place.lower, place.upper,
+        {{"water", equation_of_state::StiffenedGas{4.4, 6e8, 1000.0}}, {"air", equation_of_state::IdealGas{1.4, 718.0}}}, 10.0,
+        *domain);
+    fill(
+        gas,
+        [&](const Vector& x, double) {
+          double square = 0.0;
+          for (std::size_t a = 0; a < static_cast<std::size_t>(gas.dimensions()); ++a) square += x[a] * x[a];
+          return square < 0.005 ? Filling{1, 2.0, 2e5, {}} : Filling{0, 1000.0, 1e5, {}};
+        },
+        *domain);
+    const Totals before = totals(gas, *domain);
+    Stepper().steps(gas, 100, *domain);
+    const Totals after = totals(gas, *domain);
+    const std::vector<Totals> walls = passed(gas, *domain);
+    for (std::size_t r = 0; r < 2; ++r)
+      EXPECT_LT(set_up::relative_change(before.mass[r], after.mass[r]), round_off) << place.name;
+    EXPECT_LT(set_up::relative_change(before.energy, after.energy), round_off) << place.name;
+    EXPECT_GT(after.kinetic, 0.0) << place.name;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(gas.dimensions()); ++a) {
+      if (is_round(place.geometry) && a == 0) continue;  // the sides of a widening cell push as well
+      double impulse = 0.0, scale = 0.0;
+      for (const Totals& wall : walls) impulse += wall.momentum[a], scale += std::abs(wall.momentum[a]);
+      EXPECT_NEAR(after.momentum[a], impulse, round_off * scale) << place.name;
+    }
+  }
+}
+
+TEST(ImplicitColumn, OfIsothermalGasStaysAtRest) {
+  constexpr double h = 50.0, gravity = 9.81, thermal = 0.4 * 250.0 * 718.0;  // m, m/s^2, p/rho
+  const double half = -0.5 * gravity * h / thermal, ratio = (1.0 + half) / (1.0 - half);
+  const auto domain = single_process();
+  Gas gas = implicit_box(Geometry::plane, h, {}, {5, 100, 0}, {set_up::ideal_gas()}, 20.0, *domain);
+  gas.gravity[1] = -gravity;
+  fill(
+      gas,
+      [&](const Vector& x, double) {
+        const double p = 1e5 * std::pow(ratio, std::floor(x[1] / h));
+        return Filling{0, p / thermal, p, {}};
+      },
+      *domain);
+  Stepper().steps(gas, 500, *domain);
+  double fastest = 0.0;
+  set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
+    for (const double u : c.velocity) fastest = std::max(fastest, std::abs(u) / c.sound_speed);
+  });
+  EXPECT_LT(fastest, 1e-10);
+}
+
+TEST(ImplicitBox, IsRefusedInSeveralProcesses) {
+  VirtualRanks::run(2, [](std::shared_ptr<Domain> domain) {
+    Gas gas = implicit_box(Geometry::planar_1d, 0.01, {}, {256, 0, 0}, {set_up::ideal_gas()}, 20.0, *domain);
+    EXPECT_THROW(fill(
+                     gas,
+                     [](const Vector&, double) {
+                       return Filling{0, 1.0, 1.0, {}};
+                     },
+                     *domain),
+                 std::runtime_error);
+  });
+}
+
+// Open sides -----------------------------------------------------------------------------------------------------------
+
+/// Part of a pulse of sound that comes back from a side where waves leave.
+double reflected(bool implicit, double courant) {
+  constexpr int cells = 200;
+  constexpr double height = 1e-3;
+  const double c = std::sqrt(1.4);
+  const Filling at_rest{0, 1.0, 1.0, {}};
+  const auto domain = single_process();
+  Gas gas = set_up::box(Geometry::planar_1d, 1.0 / cells, {}, {cells, 0, 0}, {set_up::ideal_gas()}, *domain);
+  gas.implicit = implicit, gas.acoustic_courant = courant;
+  gas.edges.assign(2, set_up::beyond(EdgeKind::non_reflecting, at_rest));
+  fill(
+      gas,
+      [&](const Vector& x, double) {  // a simple wave to the right
+        const double w = height * std::exp(-std::pow((x[0] - 0.5) / 0.05, 2)), sound = c * (1.0 + 0.2 * w / c);
+        const double density = std::pow(sound / c, 5.0);
+        return Filling{0, density, std::pow(density, 1.4), {w, 0.0, 0.0}};
+      },
+      *domain);
+  Stepper{.courant = courant, .first = 1.0}.to(gas, 0.9 / c, *domain);  // what comes back is in the middle
+  double highest = 0.0;
+  set_up::for_each_cell(gas, [&](const set_up::Cell& at) { highest = std::max(highest, std::abs(at.velocity[0])); });
+  return highest / height;
+}
+
+TEST(NonReflectingEdge, LetsSoundPass) {
+  const double of_waves = reflected(false, 0.5), solved = reflected(true, 0.5), long_steps = reflected(true, 5.0);
+  RecordProperty("reflected", std::to_string(of_waves) + " " + std::to_string(solved) + " " + std::to_string(long_steps));
+  EXPECT_LT(of_waves, 0.01);
+  // The solve knows the pressure in the middle of the last cell, not at its side: half a cell is a twentieth of the pulse.
+  EXPECT_LT(solved, 0.02);
+  EXPECT_LT(long_steps, 0.05);
+}
+
+}  // namespace
+}  // namespace brisance::simulator::gas
