@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "models/equation_of_state/equation_of_state.hpp"
+#include "simulator/gas/bodies.hpp"
 #include "simulator/gas/cells.hpp"
 #include "simulator/ledger.hpp"
 
@@ -114,6 +115,7 @@ struct Gas {
   double motion_rate = 0.0;                                              // 1/s, largest |u|/h of one axis
   std::array<double, static_cast<std::size_t>(Phase::count)> seconds{};  // of wall time, by phase, in this process
   std::int64_t flattened = 0;  // slopes that were taken back so that no cell loses more energy than it has
+  Bodies bodies;               // solids in the gas
 
   bool empty() const { return fluids.empty(); }
   int dimensions() const { return cells.dimensions; }
@@ -139,8 +141,8 @@ enum class Outcome { done, rejected };
 /// Advances by dt (s). A step that is rejected changes nothing.
 Outcome advance(Gas& gas, double dt, Domain& domain);
 Totals totals(const Gas& gas, Domain& domain);
-/// What has come through each side of the box since the start, and last by gravity: mass, impulse, energy (its kinetic part
-/// stays 0).
+/// What has come through each side of the box since the start, then by gravity, then by each body, and what bodies have
+/// entrapped: mass, impulse, energy (its kinetic part stays 0).
 std::vector<Totals> passed(const Gas& gas, Domain& domain);
 
 /// Everything that a checkpoint has to keep, and back. `restore` throws std::runtime_error if it is of another gas.
