@@ -14,10 +14,17 @@ inline Lanes pressure_slope(const Pencil& p, const Pencil& density, std::size_t 
   return monotonised_central(below, p[c], above);
 }
 
-/// The state that a cell sends to one of its faces. Without slopes: that of the cell.
+/// The state that a cell sends to one of its faces.
 struct FaceSide {
   Lanes velocity, pressure, density;
 };
+/// Where the extrapolation nearly empties the cell it is not to be trusted, and the cell sends its own state.
+inline FaceSide trusted(const FaceSide& s, const Lanes& density, const Lanes& pressure, const Lanes& velocity,
+                        const LanesMask& plain = LanesMask(false)) {
+  constexpr double least = 1e-3;
+  const LanesMask bad = plain | (s.density < least * density) | ((s.pressure < least * pressure) & (pressure > 0.0));
+  return {select(bad, velocity, s.velocity), select(bad, pressure, s.pressure), select(bad, density, s.density)};
+}
 inline FaceSide face_side(const Pencil& density, const Pencil& pressure, const Pencil& velocity, const Pencil& half_pressure,
                           const Pencil& half_velocity, std::size_t c, double towards, double half_head,
                           const LanesMask& plain = LanesMask(false)) {
@@ -26,13 +33,7 @@ inline FaceSide face_side(const Pencil& density, const Pencil& pressure, const P
   s.density = density[c] + towards * slope(density, c);
   s.pressure = pressure[c] + towards * (pressure_slope(pressure, density, c, half_head) + head) + half_pressure[c];
   s.velocity = velocity[c] + towards * slope(velocity, c) + half_velocity[c];
-  // Where the extrapolation nearly empties the cell it is not to be trusted.
-  constexpr double least = 1e-3;
-  const LanesMask bad = plain | (s.density < least * density[c]) | ((s.pressure < least * pressure[c]) & (pressure[c] > 0.0));
-  s.density = select(bad, density[c], s.density);
-  s.pressure = select(bad, pressure[c], s.pressure);
-  s.velocity = select(bad, velocity[c], s.velocity);
-  return s;
+  return trusted(s, density[c], pressure[c], velocity[c], plain);
 }
 
 /// The waves between two states.

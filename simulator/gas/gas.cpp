@@ -5,13 +5,13 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "simulator/domain/message.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/ghosts.hpp"
 #include "simulator/gas/implicit.hpp"
 #include "simulator/gas/lagrangian.hpp"
 #include "simulator/gas/passages.hpp"
 #include "simulator/gas/remap.hpp"
+#include "simulator/gas/sums.hpp"
 #include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
@@ -49,24 +49,8 @@ std::int64_t forget_plain_cells(Gas& gas) {
   return count;
 }
 
-/// Adds up the blocks' numbers, so many a block. Ranks own the blocks in Morton order, so the blocks of all ranks follow each
-/// other as those of one rank would.
-std::vector<double> sum_of_ranks(const std::vector<double>& mine, std::size_t numbers, Domain& domain) {
-  std::vector<Message> all{Message{}};
-  append(all[0], mine.data(), mine.size());
-  if (domain.size() > 1) all = all_gather(domain, all[0]);
-  std::vector<CompensatedSum> sums(numbers);
-  for (const Message& message : all)
-    for (MessageReader reader(message); !reader.at_end();)
-      for (CompensatedSum& sum : sums) sum.add(reader.read<double>());
-  std::vector<double> total;
-  for (const CompensatedSum& sum : sums) total.push_back(sum.value());
-  return total;
-}
-
 /// The step as it is in `moved`, from what is in `content`; false if a cell does not bear it. Such cells are marked then.
 bool try_step(Gas& gas, double dt, Domain& domain) {
-  clear_step(gas.passages);
   if (gas.implicit) {
     if (!timed(gas, Phase::half_step, [&] { return solve_pressure(gas, dt, domain); })) return false;
   } else {
@@ -115,6 +99,7 @@ void fill(Gas& gas, const FillingFunction& filling, Domain& domain) {
       write_primitive(gas, block, c, f);
     }
   if (gas.implicit) open_implicit(gas, domain);
+  place_bodies(gas, domain);
   begin(gas, domain);
   gas.initial = totals(gas, domain);
 }
@@ -127,16 +112,22 @@ void begin(Gas& gas, Domain& domain) {
 
 double largest_step(const Gas& gas, double courant) {
   constexpr double most_swept = 0.5;  // of a cell, through one face
-  return std::min((gas.implicit ? gas.acoustic_courant : courant) / gas.wave_rate,
-                  most_swept / std::max(gas.motion_rate, 1e-300));
+  double step =
+      std::min((gas.implicit ? gas.acoustic_courant : courant) / gas.wave_rate, most_swept / std::max(gas.motion_rate, 1e-300));
+  constexpr double farthest = 0.25;  // cells that a wall may move
+  if (!gas.bodies.empty()) step = std::min(step, farthest * gas.cells.cell_size / std::max(fastest(gas), 1e-300));
+  return step;
 }
 
 Outcome advance(Gas& gas, double dt, Domain& domain) {
+  clear_step(gas.passages);
+  if (!gas.bodies.empty()) return advance_with_bodies(gas, dt, domain);
   const std::int64_t flattened = gas.flattened;
   gas.careful = false;
   constexpr int most_attempts = 3;
   for (int attempt = 1; !try_step(gas, dt, domain); ++attempt) {
     gas.flattened = flattened;
+    clear_step(gas.passages);
     if (attempt == most_attempts) {
       forget_plain_cells(gas);
       return Outcome::rejected;
@@ -163,17 +154,18 @@ Totals totals(const Gas& gas, Domain& domain) {
     std::vector<double> sum(numbers, 0.0);
     for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
       if (gas.cells.partial[block] && !gas.cells.contains(gas.cells.index(block, c))) continue;
+      const double open = open_part(gas, block, c);
       double mass = 0.0, square = 0.0;
       for (std::size_t r = 0; r < fluids; ++r) {
-        const double m = gas.content.cell(block, Content::fluids(D) + static_cast<int>(r) * gas.fluid_quantities(), c);
+        const double m = open * gas.content.cell(block, Content::fluids(D) + static_cast<int>(r) * gas.fluid_quantities(), c);
         sum[r] += m, mass += m;
       }
       for (int a = 0; a < D; ++a) {
-        const double p = gas.content.cell(block, Content::momentum + a, c);
+        const double p = open * gas.content.cell(block, Content::momentum + a, c);
         sum[fluids + static_cast<std::size_t>(a)] += p, square += p * p;
       }
-      sum[fluids + 3] += gas.content.cell(block, Content::energy, c);
-      sum[fluids + 4] += 0.5 * square / mass;
+      sum[fluids + 3] += open * gas.content.cell(block, Content::energy, c);
+      if (mass > 0.0) sum[fluids + 4] += 0.5 * square / mass;
     }
     sums.insert(sums.end(), sum.begin(), sum.end());
   }
@@ -202,6 +194,18 @@ std::vector<Totals> passed(const Gas& gas, Domain& domain) {
     for (std::size_t a = 0; a < 3; ++a) through.momentum[a] = total[fluids + a];
     through.energy = total[fluids + 3];
     result.push_back(through);
+  }
+  for (const MovingBody& body : gas.bodies.all) {
+    Totals received{std::vector<double>(fluids, 0.0), {}, -body.work.value(), 0.0};
+    for (std::size_t a = 0; a < 3; ++a) received.momentum[a] = -body.impulse[a].value();
+    result.push_back(received);
+  }
+  if (!gas.bodies.empty()) {
+    const auto lost = [&](std::size_t n) { return -gas.bodies.entrapped[n].value(); };
+    Totals entrapped{std::vector<double>(fluids, 0.0), {}, lost(gas.bodies.entrapped.size() - 1), 0.0};
+    for (std::size_t r = 0; r < fluids; ++r) entrapped.mass[r] = lost(r);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(gas.dimensions()); ++a) entrapped.momentum[a] = lost(fluids + a);
+    result.push_back(entrapped);
   }
   return result;
 }
@@ -236,6 +240,8 @@ std::vector<double> numbers_of(const Gas& gas) {
     for (const CompensatedSum& momentum : p.momentum) keep(momentum);
     keep(p.energy);
   }
+  const std::vector<double> bodies = numbers_of(gas.bodies);
+  numbers.insert(numbers.end(), bodies.begin(), bodies.end());
   return numbers;
 }
 
@@ -263,6 +269,8 @@ void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
     for (CompensatedSum& momentum : p.momentum) take(momentum);
     take(p.energy);
   }
+  restore(gas.bodies, next);
+  place_bodies(gas, domain);
   share_primitives(gas, gas.time, domain);
 }
 

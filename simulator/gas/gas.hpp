@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "models/equation_of_state/equation_of_state.hpp"
+#include "simulator/gas/bodies.hpp"
 #include "simulator/gas/cells.hpp"
 #include "simulator/ledger.hpp"
 
@@ -149,6 +150,7 @@ struct Gas {
   std::int64_t flattened = 0;  // slopes that were taken back so that no cell loses more energy than it has
   bool careful = false;        // some cells do without slopes in this step, or it would leave them without volume or heat
   std::int64_t plain = 0;      // how often cells of this process did
+  Bodies bodies;               // solids in the gas
 
   bool empty() const { return fluids.empty(); }
   int dimensions() const { return cells.dimensions; }
@@ -177,8 +179,8 @@ enum class Outcome { done, rejected };
 /// nothing.
 Outcome advance(Gas& gas, double dt, Domain& domain);
 Totals totals(const Gas& gas, Domain& domain);
-/// What has come through each side of the box since the start, and last by gravity: mass, impulse, energy (its kinetic part
-/// stays 0).
+/// What has come through each side of the box since the start, then by gravity, then by each body, and what bodies have
+/// entrapped: mass, impulse, energy (its kinetic part stays 0).
 std::vector<Totals> passed(const Gas& gas, Domain& domain);
 
 /// Everything that a checkpoint has to keep, and back. `restore` throws std::runtime_error if it is of another gas.

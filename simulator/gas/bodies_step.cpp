@@ -1,0 +1,893 @@
+// One step of a gas with bodies in it: what lagrangian.cpp and remap.cpp do axis by axis is done for all axes at once, because
+// the volumes between the sweeps of a split remap need not be positive in cells that a wall cuts.
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/equation_of_state/thermodynamics.hpp"
+#include "simulator/domain/message.hpp"
+#include "simulator/gas/acoustic.hpp"
+#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/gas.hpp"
+#include "simulator/gas/limiter.hpp"
+#include "simulator/gas/passages.hpp"
+#include "simulator/gas/sums.hpp"
+#include "simulator/parallel.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+namespace eos = equation_of_state;
+using Index = std::array<int, 3>;
+using Column = StepFields::Column;
+
+std::size_t offset(const Window& w, std::size_t axis) {
+  return static_cast<std::size_t>(w.stride[axis]);
+}
+Lanes at(const Column& column, std::size_t n) {
+  return Lanes::load(column.data() + n);
+}
+/// Calls f(n) for the first of every eight cells of the window.
+template <class F>
+void for_each_eight(const Window& w, F&& f) {
+  constexpr std::size_t share = 128;
+  const std::size_t eights = (w.cells + 7) / 8;
+  parallel_for_blocks((eights + share - 1) / share, [&](std::size_t part) {
+    const std::size_t end = std::min(eights, (part + 1) * share);
+    for (std::size_t k = part * share; k < end; ++k) f(w.first + 8 * k);
+  });
+}
+
+// The window's cells -----------------------------------------------------------------------------------------------------
+
+void make_room(const Gas& gas, StepFields& s, std::size_t length) {
+  if (s.volume.size() == length) return;
+  const auto D = static_cast<std::size_t>(gas.dimensions());
+  const auto columns = [&](std::vector<Column>& all, std::size_t count) { all.assign(count, Column(length, 1.0)); };
+  const auto contents = static_cast<std::size_t>(gas.contents());
+  columns(s.primitive, static_cast<std::size_t>(gas.primitive.quantities()));
+  columns(s.content, contents), columns(s.change, contents), columns(s.half, 1 + D);
+  for (Column* c : {&s.volume, &s.density, &s.energy, &s.covered, &s.mean}) c->assign(length, 1.0);
+  for (std::size_t a = 0; a < D; ++a) {
+    s.flow[a].assign(length, 0.0), s.pressure[a].assign(length, 0.0), s.velocity[a].assign(length, 0.0);
+    columns(s.passing[a], contents);
+  }
+  if (gas.fluids.size() > 1)
+    for (auto* all : {&s.part, &s.fluid_density, &s.fluid_energy}) columns(*all, gas.fluids.size());
+}
+
+/// How a block's position repeats: all shifts by periods, none among them.
+std::vector<Index> shifts_of(const Gas& gas) {
+  std::vector<Index> shifts{Index{}};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(gas.dimensions()); ++a) {
+    if (gas.edges[2 * a].kind != EdgeKind::periodic) continue;
+    const int period = gas.cells.upper[a] - gas.cells.lower[a];
+    const std::size_t before = shifts.size();
+    // A box narrower than the window sees itself more than once.
+    const int times = (Window::depth + period - 1) / period;
+    for (int n = -times; n <= times; ++n)
+      for (std::size_t k = 0; k < before && n != 0; ++k) {
+        shifts.push_back(shifts[k]);
+        shifts.back()[a] += n * period;
+      }
+  }
+  return shifts;
+}
+/// The part of a shifted block that is of the box and of a window.
+Part seen_part(const Cells& cells, const Index& corner, const Index& shift, const Part& window) {
+  Part p;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const bool used = static_cast<int>(a) < cells.dimensions;
+    p.lower[a] = used ? std::max({std::max(corner[a], cells.lower[a]) + shift[a], window.lower[a]}) : 0;
+    p.upper[a] = used ? std::min({std::min(corner[a] + line, cells.upper[a]) + shift[a], window.upper[a]}) : 1;
+    if (p.lower[a] >= p.upper[a]) return {};
+  }
+  return p;
+}
+
+/// Takes what the own blocks and those of other ranks hold into the window.
+void gather(Gas& gas, Domain& domain) {
+  Bodies& bodies = gas.bodies;
+  const Cells& cells = gas.cells;
+  const Window& w = bodies.window;
+  StepFields& s = bodies.fields;
+  const std::vector<Index> shifts = shifts_of(gas);
+  const auto me = static_cast<std::size_t>(domain.rank());
+  const auto place = [&](const Index& corner, const double* primitive, const double* content) {
+    const std::size_t numbers = static_cast<std::size_t>(8 * cells.packs());
+    for (const Index& shift : shifts) {
+      const Part seen = seen_part(cells, corner, shift, bodies.windows[me]);
+      if (seen.empty()) continue;
+      for (int k = seen.lower[2]; k < seen.upper[2]; ++k)
+        for (int j = seen.lower[1]; j < seen.upper[1]; ++j) {
+          const int from = (seen.lower[0] - shift[0] - corner[0]) + 8 * (j - shift[1] - corner[1]) +
+                           (w.dimensions == 3 ? 64 * (k - shift[2] - corner[2]) : 0);
+          const std::size_t to = w.at({seen.lower[0], j, k});
+          const auto count = static_cast<std::size_t>(seen.upper[0] - seen.lower[0]);
+          for (std::size_t q = 0; q < s.primitive.size(); ++q)
+            std::copy_n(primitive + q * numbers + static_cast<std::size_t>(from), count, s.primitive[q].data() + to);
+          for (std::size_t q = 0; q < s.content.size(); ++q)
+            std::copy_n(content + q * numbers + static_cast<std::size_t>(from), count, s.content[q].data() + to);
+        }
+    }
+  };
+  const auto numbers_in = [&](const CellSet& set) { return static_cast<std::size_t>(set.quantities() * set.packs()); };
+  if (domain.size() > 1) {
+    std::vector<Message> messages(bodies.windows.size());
+    for (std::size_t r = 0; r < messages.size(); ++r) {
+      if (r == me) continue;
+      for (const std::int32_t b : cells.mine) {
+        const auto block = static_cast<std::size_t>(b);
+        const Index corner = cells.corner(block);
+        const bool seen = std::any_of(shifts.begin(), shifts.end(), [&](const Index& shift) {
+          return !seen_part(cells, corner, shift, bodies.windows[r]).empty();
+        });
+        if (!seen) continue;
+        append(messages[r], corner);
+        append(messages[r], gas.primitive.at(block, 0), numbers_in(gas.primitive));
+        append(messages[r], gas.content.at(block, 0), numbers_in(gas.content));
+      }
+    }
+    std::vector<Lanes> primitive(numbers_in(gas.primitive)), content(numbers_in(gas.content));
+    for (const Message& message : domain.exchange(std::move(messages)))
+      for (MessageReader reader(message); !reader.at_end();) {
+        const auto corner = reader.read<Index>();
+        reader.read(primitive.data(), primitive.size()), reader.read(content.data(), content.size());
+        place(corner, reinterpret_cast<const double*>(primitive.data()), reinterpret_cast<const double*>(content.data()));
+      }
+  }
+  for (const std::int32_t b : cells.mine) {
+    const auto block = static_cast<std::size_t>(b);
+    place(cells.corner(block), reinterpret_cast<const double*>(gas.primitive.at(block, 0)),
+          reinterpret_cast<const double*>(gas.content.at(block, 0)));
+  }
+}
+
+/// Writes a state into a cell of the window.
+void write_state(Gas& gas, const Filling& filling, const Index& cell, std::size_t n) {
+  StepFields& s = gas.bodies.fields;
+  const auto D = static_cast<std::size_t>(gas.dimensions());
+  // Through a cell of scratch.
+  const auto block = static_cast<std::size_t>(gas.cells.mine.front());
+  write_content(gas, gas.next, block, 0, filling);
+  const double room = gas.next.cell(block, Content::room, 0), part = whole_cell(gas.cells, cell[0]).volume / room;
+  for (std::size_t q = 0; q < s.content.size(); ++q) s.content[q][n] = part * gas.next.cell(block, static_cast<int>(q), 0);
+  double kinetic = 0.0;
+  for (std::size_t a = 0; a < D; ++a) {
+    s.primitive[Primitive::velocity + a][n] = filling.velocity[a];
+    kinetic += 0.5 * filling.density * filling.velocity[a] * filling.velocity[a];
+  }
+  const EquationOfState& law = gas.fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state;
+  const double energy = (gas.next.cell(block, Content::energy, 0) / room - kinetic) / filling.density;
+  s.primitive[Primitive::density][n] = filling.density, s.primitive[Primitive::pressure][n] = filling.pressure;
+  s.primitive[Primitive::sound_speed][n] = std::sqrt(eos::sound_speed_squared(law, filling.density, energy));
+  s.primitive[Primitive::gruneisen][n] = eos::gruneisen_coefficient(law, filling.density, energy);
+  for (std::size_t r = 0; gas.fluids.size() > 1 && r < gas.fluids.size(); ++r)
+    s.primitive[Primitive::velocity + D + r][n] = static_cast<int>(r) == filling.fluid ? 1.0 : 0.0;
+}
+
+/// What lies beyond the box, axis by axis.
+void fill_beyond(Gas& gas) {
+  const Cells& cells = gas.cells;
+  const Window& w = gas.bodies.window;
+  StepFields& s = gas.bodies.fields;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(w.dimensions); ++a) {
+    if (gas.edges[2 * a].kind == EdgeKind::periodic) continue;
+    const int lower = cells.lower[a], upper = cells.upper[a];
+    Part all;
+    for (std::size_t b = 0; b < 3; ++b) all.lower[b] = w.lower[b], all.upper[b] = w.lower[b] + w.size[b];
+    const auto fill_cell = [&](const Index& cell) {
+      Index from = cell;
+      double sign = 1.0;
+      const Edge& edge = gas.edges[2 * a + (cell[a] < lower ? 0 : 1)];
+      while (from[a] < lower || from[a] >= upper) {
+        const bool low = from[a] < lower;
+        if (gas.edges[2 * a + (low ? 0 : 1)].kind == EdgeKind::wall)
+          from[a] = 2 * (low ? lower : upper) - 1 - from[a], sign = -sign;
+        else
+          from[a] = low ? lower : upper - 1;
+      }
+      const std::size_t n = w.at(cell), source = w.at(from);
+      for (Column& column : s.primitive) column[n] = column[source];
+      for (Column& column : s.content) column[n] = column[source];
+      s.primitive[Primitive::velocity + a][n] *= sign, s.content[Content::momentum + a][n] *= sign;
+      if (edge.kind == EdgeKind::wall) return;
+      Vector x{};
+      for (std::size_t b = 0; b < static_cast<std::size_t>(w.dimensions); ++b) x[b] = (cell[b] + 0.5) * cells.cell_size;
+      const Filling beyond = edge.beyond(x, gas.time);
+      if (edge.kind == EdgeKind::pressure)
+        s.primitive[Primitive::pressure][n] = beyond.pressure;
+      else
+        write_state(gas, beyond, cell, n);
+    };
+    Part low = all, high = all;
+    low.upper[a] = std::min(lower, all.upper[a]), high.lower[a] = std::max(upper, all.lower[a]);
+    if (low.lower[a] < low.upper[a]) for_each_cell_of(low, fill_cell);
+    if (high.lower[a] < high.upper[a]) for_each_cell_of(high, fill_cell);
+  }
+}
+
+// The Lagrangian phase ---------------------------------------------------------------------------------------------------
+
+Lanes slope_at(const Column& q, std::size_t n, std::size_t step, const LanesMask& smooth) {
+  return select(smooth, monotonised_central(at(q, n - step), at(q, n), at(q, n + step)), Lanes(0.0));
+}
+
+void half_step(Gas& gas, double dt) {
+  const Window& w = gas.bodies.window;
+  const CutCells& step = gas.bodies.step;
+  StepFields& s = gas.bodies.fields;
+  const double h = gas.cells.cell_size;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const bool round = is_round(gas.cells.geometry);
+  for_each_eight(w, [&](std::size_t n) {
+    const Lanes density = at(s.primitive[Primitive::density], n), sound = at(s.primitive[Primitive::sound_speed], n);
+    Lanes divergence(0.0);
+    LanesMask whole(true);
+    for (std::size_t a = 0; a < D; ++a) {
+      const LanesMask smooth = at(step.smooth[a], n) > 0.5;
+      const Lanes push = slope_at(s.primitive[Primitive::pressure], n, offset(w, a), smooth);
+      ((-0.5 * dt / h) * push / density).store(s.half[HalfStep::velocity + a].data() + n);
+      divergence += slope_at(s.primitive[Primitive::velocity + a], n, offset(w, a), smooth);
+      whole &= smooth;
+    }
+    divergence *= 1.0 / h;
+    if (round) {
+      Lanes widening;
+      for (int l = 0; l < 8; ++l) {
+        const std::size_t cell = std::min(n + static_cast<std::size_t>(l), w.first + w.cells - 1);
+        widening.set(l, gas.cells.metric.widening[static_cast<std::size_t>(w.index(cell)[0] - gas.cells.metric.first)]);
+      }
+      divergence += select(whole, widening * at(s.primitive[Primitive::velocity], n), Lanes(0.0));
+    }
+    (-0.5 * dt * density * sound * sound * divergence).store(s.half[HalfStep::pressure].data() + n);
+  });
+}
+
+FaceSide face_side(const StepFields& s, const Window& w, const CutCells& step, std::size_t n, std::size_t axis,
+                   double towards) {
+  const LanesMask smooth = at(step.smooth[axis], n) > 0.5;
+  const auto slope_of = [&](int quantity) {
+    return slope_at(s.primitive[static_cast<std::size_t>(quantity)], n, offset(w, axis), smooth);
+  };
+  const int along = Primitive::velocity + static_cast<int>(axis);
+  const Lanes density = at(s.primitive[Primitive::density], n), pressure = at(s.primitive[Primitive::pressure], n),
+              velocity = at(s.primitive[static_cast<std::size_t>(along)], n);
+  FaceSide side;
+  side.density = density + towards * slope_of(Primitive::density);
+  side.pressure = pressure + towards * slope_of(Primitive::pressure) + at(s.half[HalfStep::pressure], n);
+  side.velocity = velocity + towards * slope_of(along) + at(s.half[HalfStep::velocity + axis], n);
+  return trusted(side, density, pressure, velocity);
+}
+FaceSide chosen(const LanesMask& yes, const FaceSide& a, const FaceSide& b) {
+  return {select(yes, a.velocity, b.velocity), select(yes, a.pressure, b.pressure), select(yes, a.density, b.density)};
+}
+
+void find_faces(Gas& gas, double dt) {
+  const Window& w = gas.bodies.window;
+  const CutCells& step = gas.bodies.step;
+  StepFields& s = gas.bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const auto speed_at = [&](std::size_t n) {
+    Lanes square(0.0);
+    for (std::size_t a = 0; a < D; ++a) {
+      const Lanes u = at(s.primitive[Primitive::velocity + a], n);
+      square += u * u;
+    }
+    return square;
+  };
+  for (std::size_t a = 0; a < D; ++a)
+    for_each_eight(w, [&](std::size_t n) {
+      const std::size_t l = n - offset(w, a);
+      FaceSide L = face_side(s, w, step, l, a, 0.5), R = face_side(s, w, step, n, a, -0.5);
+      Lanes sound_L = at(s.primitive[Primitive::sound_speed], l), sound_R = at(s.primitive[Primitive::sound_speed], n);
+      // A cell that is only being opened has no state to send.
+      const LanesMask gas_L = at(gas.bodies.space.volume, l) > 0.0, gas_R = at(gas.bodies.space.volume, n) > 0.0;
+      const FaceSide from_L = L;
+      L = chosen(gas_L, L, R), R = chosen(gas_R, R, from_L);
+      const Lanes c_L = sound_L;
+      sound_L = select(gas_L, sound_L, sound_R), sound_R = select(gas_R, sound_R, c_L);
+      const Lanes shock = 1.0 + 0.5 * max(at(s.primitive[Primitive::gruneisen], l), at(s.primitive[Primitive::gruneisen], n));
+      const Star found = star(L, R, sound_L, sound_R, shock, sqrt(max(speed_at(l), speed_at(n))), gas.least_mach);
+      // Gas at rest is so to the last bit.
+      const LanesMask calm = (L.pressure == R.pressure) & (L.velocity == R.velocity);
+      const Lanes velocity = select(calm, L.velocity, found.velocity);
+      Lanes area = at(step.area[a], n);
+      const LanesMask open = area > 0.0;
+      if (a == 0 && is_round(gas.cells.geometry)) {
+        const Lanes cut = area;
+        area = area_on_the_way(gas.cells, area, dt * velocity);
+        const LanesMask whole = (at(gas.bodies.space.area[0], n) == cut) & open;
+        area = select(whole, area, cut);
+      }
+      select(open, area * velocity, Lanes(0.0)).store(s.flow[a].data() + n);
+      // The face on the axis has no area, but a pressure.
+      select(gas_L | gas_R, select(calm, L.pressure, found.pressure), Lanes(0.0)).store(s.pressure[a].data() + n);
+    });
+  // Nothing passes a wall, not even a rounding error.
+  for (std::size_t side = 0; side < 2 * D; ++side) {
+    const std::size_t a = side / 2;
+    const int at_face = side % 2 == 0 ? gas.cells.lower[a] : gas.cells.upper[a];
+    if (gas.edges[side].kind != EdgeKind::wall || at_face < w.lower[a] || at_face >= w.lower[a] + w.size[a]) continue;
+    Part plane;
+    for (std::size_t b = 0; b < 3; ++b) plane.lower[b] = w.lower[b], plane.upper[b] = w.lower[b] + w.size[b];
+    plane.lower[a] = at_face, plane.upper[a] = at_face + 1;
+    for_each_cell_of(plane, [&](const Index& cell) { s.flow[a][w.at(cell)] = 0.0; });
+  }
+}
+
+/// What faces and walls do to a cell, before anything is carried along.
+struct WallPush {
+  double pressure, momentum_pressure;  // Pa: of the wall, of the gas in the cell
+};
+WallPush wall_pressure(const Gas& gas, const CutCell& c) {
+  const StepFields& s = gas.bodies.fields;
+  const Window& w = gas.bodies.window;
+  const CutCells& step = gas.bodies.step;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const std::size_t n = c.cell;
+  if (gas.bodies.space.volume[n] == 0.0) {
+    // It is being opened: the mean of its faces.
+    double sum = 0.0, areas = 0.0;
+    for (std::size_t a = 0; a < D; ++a)
+      for (const std::size_t face : {n, n + offset(w, a)})
+        sum += step.area[a][face] * s.pressure[a][face], areas += step.area[a][face];
+    const double p = areas > 0.0 ? sum / areas : 0.0;
+    return {p, p};
+  }
+  const double p = s.primitive[Primitive::pressure][n] + s.half[HalfStep::pressure][n];
+  const double size = magnitude(c.wall);
+  if (size == 0.0) return {p, p};
+  double closing = 0.0;
+  for (std::size_t a = 0; a < D; ++a)
+    closing += (s.primitive[Primitive::velocity + a][n] + s.half[HalfStep::velocity + a][n] - c.velocity[a]) * c.wall[a] / size;
+  const double rho = s.primitive[Primitive::density][n], sound = s.primitive[Primitive::sound_speed][n];
+  // The speed of the shock that the wall drives into the gas, or of sound.
+  const double push = 0.5 * (1.0 + 0.5 * s.primitive[Primitive::gruneisen][n]) * std::max(closing, 0.0);
+  const double wave = push + std::sqrt(sound * sound + push * push);
+  return {std::max(std::min(p, 0.0), p + rho * wave * closing), p};
+}
+
+/// Momentum and work that bodies have received from the gas in a step.
+struct Received {
+  Vector impulse{};   // N s
+  double work = 0.0;  // J, of the pressure on the wall
+  double area = 0.0;  // m^2
+};
+
+/// Pushes cells along; returns what the cut cells give to the bodies, one of each cut cell.
+std::vector<Received> push_cells(Gas& gas, double dt) {
+  const Window& w = gas.bodies.window;
+  const CutCells& step = gas.bodies.step;
+  StepFields& s = gas.bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  for_each_eight(w, [&](std::size_t n) {
+    Lanes growth(0.0), work(0.0);
+    for (std::size_t a = 0; a < D; ++a) {
+      const std::size_t next = n + offset(w, a);
+      const Lanes low = at(s.pressure[a], n), high = at(s.pressure[a], next);
+      const Lanes in = at(s.flow[a], n), out = at(s.flow[a], next);
+      growth += out - in, work += high * out - low * in;
+      // The impulse of the pressure on the sides of a widening cell is that of the mean of its two faces.
+      (-dt * (0.5 * (at(step.area[a], n) + at(step.area[a], next))) * (high - low))
+          .store(s.change[Content::momentum + a].data() + n);
+    }
+    (-dt * work).store(s.change[Content::energy].data() + n);
+    (at(gas.bodies.next_space.volume, n) + dt * growth).store(s.volume.data() + n);
+    for (std::size_t q = Content::momentum + D; q < s.change.size(); ++q) Lanes(0.0).store(s.change[q].data() + n);
+  });
+  std::vector<Received> received(step.cut.size());
+  parallel_for_blocks(step.cut.size(), [&](std::size_t k) {
+    const CutCell& c = step.cut[k];
+    const WallPush push = wall_pressure(gas, c);
+    // The pressure of the wall is taken off all around: what is in balance stays so to the last bit.
+    for (std::size_t a = 0; a < D; ++a) {
+      const std::size_t low = c.cell, high = c.cell + offset(w, a);
+      s.change[Content::momentum + a][c.cell] = -dt * (step.area[a][high] * (s.pressure[a][high] - push.pressure) -
+                                                       step.area[a][low] * (s.pressure[a][low] - push.pressure));
+    }
+    if (gas.cells.geometry == Geometry::axisymmetric) {
+      const double side = 0.5 * (gas.bodies.space.side[c.cell] + gas.bodies.next_space.side[c.cell]);
+      s.change[Content::momentum][c.cell] +=
+          dt * (w.index(c.cell)[0] < 0 ? -side : side) * (push.momentum_pressure - push.pressure);
+    }
+    Received& r = received[k];
+    r.impulse = (dt * push.pressure) * c.wall, r.work = push.pressure * c.growth, r.area = magnitude(c.wall);
+    s.change[Content::energy][c.cell] -= r.work;
+  });
+  return received;
+}
+
+/// f(k) for the cut cells k of an own block, in the order of its cells.
+template <class F>
+void for_each_cut_cell(const Gas& gas, const std::vector<std::int32_t>& number, std::size_t block, F&& f) {
+  for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
+    const Index index = gas.cells.index(block, c);
+    if (!gas.cells.contains(index)) continue;
+    const std::size_t n = gas.bodies.window.at(index);
+    if (gas.bodies.step.is_cut[n]) f(static_cast<std::size_t>(number[n]));
+  }
+}
+
+/// Sums what each body has received, and gives back to the gas what the work of the wall's pressure exceeds the work on a body
+/// that the gas drives by. Also sets the bodies' next velocities.
+void settle_with_bodies(Gas& gas, const std::vector<Received>& received, double dt, std::vector<MovingBody::State>& next,
+                        std::vector<Received>& sums, Domain& domain) {
+  Bodies& bodies = gas.bodies;
+  StepFields& s = bodies.fields;
+  std::vector<std::int32_t> number(bodies.window.length, -1);
+  for (std::size_t k = 0; k < bodies.step.cut.size(); ++k) number[bodies.step.cut[k].cell] = static_cast<std::int32_t>(k);
+  constexpr std::size_t numbers = 5;
+  std::vector<double> mine;
+  for (const std::int32_t b : gas.cells.mine) {
+    std::vector<double> of_block(numbers * bodies.all.size(), 0.0);
+    for_each_cut_cell(gas, number, static_cast<std::size_t>(b), [&](std::size_t k) {
+      if (bodies.step.cut[k].body < 0) return;
+      double* at_body = of_block.data() + numbers * static_cast<std::size_t>(bodies.step.cut[k].body);
+      for (std::size_t a = 0; a < 3; ++a) at_body[a] += received[k].impulse[a];
+      at_body[3] += received[k].work, at_body[4] += received[k].area;
+    });
+    mine.insert(mine.end(), of_block.begin(), of_block.end());
+  }
+  const std::vector<double> total = sum_of_ranks(mine, numbers * bodies.all.size(), domain);
+  std::vector<double> excess(bodies.all.size(), 0.0);  // J/m^2
+  for (std::size_t b = 0; b < bodies.all.size(); ++b) {
+    const double* of = total.data() + numbers * b;
+    sums[b] = {{of[0], of[1], of[2]}, of[3], of[4]};
+    const MovingBody& body = bodies.all[b];
+    if (body.mass == 0.0) continue;
+    const auto axis = static_cast<std::size_t>(body.axis);
+    const double before = body.state.velocity[axis], after = before + sums[b].impulse[axis] / body.mass;
+    next[b].velocity[axis] = after, next[b].acceleration[axis] = (after - before) / dt;
+    const double done = sums[b].impulse[axis] * (0.5 * (before + after));
+    if (sums[b].area > 0.0) excess[b] = (sums[b].work - done) / sums[b].area;
+    if (sums[b].area > 0.0) sums[b].work = done;
+  }
+  for (std::size_t k = 0; k < bodies.step.cut.size(); ++k) {
+    const CutCell& c = bodies.step.cut[k];
+    if (c.body >= 0) s.change[Content::energy][c.cell] += excess[static_cast<std::size_t>(c.body)] * received[k].area;
+  }
+}
+
+/// The fluids of a cell share its change of volume and energy by their compressibility.
+void share_changes(Gas& gas) {
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = gas.bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
+  const auto first = [&](std::size_t r) { return Content::momentum + D + 3 * r; };
+  for_each_eight(w, [&](std::size_t n) {
+    Lanes whole;
+    for (int l = 0; l < 8; ++l) {
+      const std::size_t cell = std::min(n + static_cast<std::size_t>(l), w.first + w.cells - 1);
+      whole.set(l, whole_cell(gas.cells, w.index(cell)[0]).volume);
+    }
+    const Lanes volume = at(bodies.space.volume, n), open = volume / whole;
+    Lanes mass(0.0), kinetic_before(0.0), kinetic(0.0);
+    for (std::size_t r = 0; r < fluids; ++r) mass += open * at(s.content[first(r) + Content::mass], n);
+    for (std::size_t a = 0; a < D; ++a) {
+      const Lanes before = open * at(s.content[Content::momentum + a], n),
+                  after = before + at(s.change[Content::momentum + a], n);
+      kinetic_before += before * before, kinetic += after * after;
+    }
+    const Lanes growth = at(s.volume, n) - volume;
+    const Lanes work = at(s.change[Content::energy], n) - 0.5 * (kinetic - kinetic_before) / mass;
+    const LanesMask gas_here = volume > 0.0;
+    // As in lagrangian.cpp: no fluid takes more than its half or double, the rest goes to that with most volume.
+    Lanes rest(1.0), largest(0.0);
+    for (std::size_t r = 0; r < fluids; ++r) largest = max(largest, at(s.content[first(r) + Content::volume], n));
+    std::vector<Lanes> share(fluids);
+    std::vector<LanesMask> majority(fluids);
+    LanesMask given(false);
+    for (std::size_t r = 0; r < fluids; ++r) {
+      const Lanes own = at(s.content[first(r) + Content::volume], n);
+      majority[r] = (own == largest) & !given;
+      given |= majority[r];
+      const Lanes most = select(growth < 0.0, Lanes(0.5), Lanes(1.0)) * (open * own) / max(abs(growth), Lanes(1e-300));
+      share[r] = select(majority[r], Lanes(0.0), min(at(s.primitive[Primitive::velocity + D + r], n), max(most, Lanes(0.0))));
+      rest -= share[r];
+    }
+    for (std::size_t r = 0; r < fluids; ++r) {
+      const Lanes part = select(gas_here, select(majority[r], rest, share[r]), Lanes(0.0));
+      select(gas_here, part * growth, Lanes(0.0)).store(s.change[first(r) + Content::volume].data() + n);
+      select(gas_here, part * work, Lanes(0.0)).store(s.change[first(r) + Content::internal].data() + n);
+    }
+  });
+}
+
+// The remap --------------------------------------------------------------------------------------------------------------
+
+/// The moved gas as it leaves through the faces: of each cell, or of the neighbourhood of a small one.
+void find_donors(Gas& gas) {
+  Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
+  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  const auto first = [&](std::size_t r) { return Content::momentum + D + per_fluid * r; };
+  // From what a cell holds after the Lagrangian phase.
+  const auto write = [&](auto&& held, const auto& volume, auto&& put) {
+    auto mass = held(first(0) + Content::mass);
+    for (std::size_t r = 1; r < fluids; ++r) mass += held(first(r) + Content::mass);
+    auto kinetic = 0.0 * mass;
+    for (std::size_t a = 0; a < D; ++a) {
+      const auto p = held(Content::momentum + a);
+      const auto u = p / mass;
+      kinetic += 0.5 * p * u;
+      put(s.velocity[a], u);
+    }
+    put(s.density, mass / volume);
+    if (fluids == 1) return put(s.energy, (held(Content::energy) - kinetic) / volume);
+    auto internal = 0.0 * mass;
+    for (std::size_t r = 0; r < fluids; ++r) {
+      using Real = std::decay_t<decltype(mass)>;
+      const Real own = held(first(r) + Content::volume), own_mass = held(first(r) + Content::mass);
+      const auto present = (own > least_fraction * volume) & (own_mass > 0.0);
+      const Real divisor = select(present, own, Real(1.0)), heat = held(first(r) + Content::internal);
+      internal += heat;
+      put(s.part[r], select(present, Real(own / volume), Real(0.0)));
+      put(s.fluid_density[r], Real(own_mass / divisor)), put(s.fluid_energy[r], Real(heat / divisor));
+    }
+    put(s.energy, internal / volume);
+  };
+  for_each_eight(w, [&](std::size_t n) {
+    Lanes whole;
+    for (int l = 0; l < 8; ++l) {
+      const std::size_t cell = std::min(n + static_cast<std::size_t>(l), w.first + w.cells - 1);
+      whole.set(l, whole_cell(gas.cells, w.index(cell)[0]).volume);
+    }
+    const Lanes open = at(bodies.space.volume, n) / whole;
+    write([&](std::size_t q) { return open * at(s.content[q], n) + at(s.change[q], n); }, at(s.volume, n),
+          [&](Column& column, const Lanes& value) { value.store(column.data() + n); });
+  });
+  std::vector<double> merged(bodies.small.small.size());
+  for (std::size_t i = 0; i < bodies.small.small.size(); ++i) {
+    const Neighbourhood& hood = bodies.small.small[i];
+    const auto sum = [&](auto&& of) {
+      double total = 0.0;
+      for (int m = 0; m < hood.count; ++m) total += of(hood.members[static_cast<std::size_t>(m)]);
+      return total;
+    };
+    const auto held = [&](std::size_t q) {
+      return sum([&](std::size_t n) {
+        return bodies.space.volume[n] / whole_cell(gas.cells, w.index(n)[0]).volume * s.content[q][n] + s.change[q][n];
+      });
+    };
+    merged[i] = sum([&](std::size_t n) { return s.volume[n]; });
+    write(held, merged[i], [&](Column& column, double value) { column[hood.cell] = value; });
+  }
+  for (std::size_t i = 0; i < merged.size(); ++i) s.volume[bodies.small.small[i].cell] = merged[i];
+}
+
+/// The flow through eight faces: which of the two cells gives, and what part of it.
+struct Giving {
+  std::size_t low, high, step;
+  LanesMask up, smooth;
+  Lanes part;
+
+  Lanes of(const Column& q) const { return select(up, at(q, low), at(q, high)); }
+  Lanes difference(const Column& q, const Lanes& leaving) const {
+    const Lanes l = at(q, low), r = at(q, high);
+    const Lanes ahead = select(up, r - l, l - r);
+    const Lanes behind = select(up, l - at(q, low - step), r - at(q, high + step));
+    return upwind_difference(select(up, l, r), behind, ahead, leaving);
+  }
+  Lanes leaving(const Column& q, const Lanes& own_part, const LanesMask& where) const {
+    return of(q) + select(where, 0.5 * (1.0 - own_part) * difference(q, own_part), Lanes(0.0));
+  }
+  Lanes leaving(const Column& q) const { return leaving(q, part, smooth); }
+};
+
+/// What passes the faces across an axis. Momentum and energy as in remap.cpp: the heat of both parts of a cell pays for their
+/// different velocities.
+void find_passing(Gas& gas, double dt, std::size_t axis) {
+  Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
+  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  std::vector<Column>& passing = s.passing[axis];
+  for_each_eight(w, [&](std::size_t n) {
+    const Lanes swept = dt * at(s.flow[axis], n);
+    const LanesMask none_passes = swept == 0.0;
+    const auto put = [&](std::size_t q, const Lanes& value) {
+      select(none_passes, Lanes(0.0), value).store(passing[q].data() + n);
+    };
+    Giving giving{n - offset(w, axis), n, offset(w, axis), swept > 0.0, LanesMask(false), Lanes(0.0)};
+    giving.part = abs(swept) / giving.of(s.volume);
+    giving.smooth = giving.of(bodies.step.smooth[axis]) > 0.5;
+    Lanes mass(0.0), heat(0.0);
+    if (fluids == 1) {
+      mass = swept * giving.leaving(s.density), heat = swept * giving.leaving(s.energy);
+      put(Content::momentum + D, mass);
+    } else {
+      const Lanes q = abs(swept), sign = select(giving.up, Lanes(1.0), Lanes(-1.0)), room = giving.of(s.volume);
+      constexpr double most = 0.999;  // of what the donor has
+      Lanes left = q, largest(0.0);
+      std::vector<Lanes> volume(fluids);
+      for (std::size_t r = 0; r < fluids; ++r) {
+        const Lanes part = giving.of(s.part[r]);
+        const LanesMask whole = part > 1.0 - least_fraction;
+        const Lanes wanted = max(Lanes(q * giving.leaving(s.part[r])), Lanes(0.0));
+        volume[r] = select(whole, q, min(wanted, Lanes(most * part * room)));
+        left -= volume[r], largest = max(largest, part);
+      }
+      LanesMask given(false);
+      for (std::size_t r = 0; r < fluids; ++r) {
+        const Lanes part = giving.of(s.part[r]);
+        const LanesMask here = part > 0.0, most_of_it = (part == largest) & !given;
+        given |= most_of_it;
+        const Lanes own = volume[r] + select(most_of_it, left, Lanes(0.0));
+        const Lanes own_part = min(Lanes(own / max(Lanes(part * room), Lanes(1e-300))), Lanes(0.9999));
+        // Slopes only where the cell before, this one and the next all have the fluid.
+        const Lanes around =
+            min(min(at(s.part[r], giving.low), at(s.part[r], giving.high)),
+                select(giving.up, at(s.part[r], giving.low - giving.step), at(s.part[r], giving.high + giving.step)));
+        const LanesMask smooth = giving.smooth & (around > 0.0);
+        const Lanes dm = select(here, sign * own * giving.leaving(s.fluid_density[r], own_part, smooth), Lanes(0.0));
+        const Lanes dI = select(here, sign * own * giving.leaving(s.fluid_energy[r], own_part, smooth), Lanes(0.0));
+        const std::size_t first = Content::momentum + D + per_fluid * r;
+        put(first + Content::mass, dm), put(first + Content::volume, select(here, sign * own, Lanes(0.0)));
+        put(first + Content::internal, dI);
+        mass += dm, heat += dI;
+      }
+    }
+    const Lanes density = giving.of(s.density), part = abs(mass) / (density * giving.of(s.volume));
+    Lanes slopes[3], steepness(0.0);
+    for (std::size_t a = 0; a < D; ++a) {
+      const auto of = [&](std::size_t cell) {
+        return monotonised_central(at(s.velocity[a], cell - giving.step), at(s.velocity[a], cell),
+                                   at(s.velocity[a], cell + giving.step));
+      };
+      slopes[a] = select(giving.smooth, select(giving.up, of(giving.low), of(giving.high)), Lanes(0.0));
+      steepness += slopes[a] * slopes[a];
+    }
+    constexpr double most = 0.5;
+    const Lanes cost = 0.125 * part * (1.0 - part) * density * steepness, energy = max(giving.of(s.energy), Lanes(0.0));
+    const LanesMask too_steep = cost > most * energy;
+    Lanes offset_of = select(giving.up, 0.5 * (1.0 - part), -0.5 * (1.0 - part));
+    offset_of = select(too_steep, offset_of * sqrt(most * energy / max(cost, Lanes(1e-300))), offset_of);
+    const Lanes kept = 1.0 - min(cost, Lanes(most * energy)) / max(energy, Lanes(1e-300));
+    Lanes kinetic(0.0);
+    for (std::size_t a = 0; a < D; ++a) {
+      const Lanes u = giving.of(s.velocity[a]) + offset_of * slopes[a];
+      put(Content::momentum + a, mass * u), kinetic += 0.5 * mass * u * u;
+    }
+    put(Content::energy, heat * kept + kinetic);
+  });
+}
+
+/// New contents of the window's cells, by whole cell; in cells without gas what they held.
+void remap(Gas& gas, double dt) {
+  Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  for (std::size_t a = 0; a < D; ++a) find_passing(gas, dt, a);
+  for_each_eight(w, [&](std::size_t n) {
+    Lanes whole;
+    for (int l = 0; l < 8; ++l) {
+      const std::size_t cell = std::min(n + static_cast<std::size_t>(l), w.first + w.cells - 1);
+      whole.set(l, whole_cell(gas.cells, w.index(cell)[0]).volume);
+    }
+    const Lanes before = at(bodies.space.volume, n) / whole, after = at(bodies.next_space.volume, n) / whole;
+    for (std::size_t q = 1; q < s.content.size(); ++q) {
+      Lanes change = at(s.change[q], n);
+      for (std::size_t a = 0; a < D; ++a) change -= at(s.passing[a][q], n + offset(w, a)) - at(s.passing[a][q], n);
+      change.store(s.change[q].data() + n);
+      const Lanes held = at(s.content[q], n);
+      // Nothing changes, to the last bit, where nothing happens.
+      const Lanes next = select(before > 0.0, held + (change - held * (after - before)) / after, change / after);
+      select(after > 0.0, next, held).store(s.content[q].data() + n);
+    }
+  });
+}
+
+/// Redistributes what small cells hold; returns what has been entrapped in own cells.
+void redistribute_all(Gas& gas, std::vector<double>& entrapped) {
+  Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  for (std::size_t q = 1; q < s.content.size(); ++q) {
+    Column& held = s.content[q];
+    for (const std::size_t n : bodies.small.shared) {
+      const double whole = whole_cell(gas.cells, w.index(n)[0]).volume;
+      const bool covered = bodies.next_space.volume[n] == 0.0;
+      s.mean[n] = held[n] / whole;
+      s.covered[n] = covered ? bodies.space.volume[n] / whole * held[n] + s.change[q][n] : 0.0;
+    }
+    std::vector<double> first;
+    for (const std::size_t n : bodies.small.shared) first.push_back(s.mean[n]);
+    redistribute(w, bodies.small, bodies.next_space.volume, s.mean, s.covered);
+    for (std::size_t k = 0; k < bodies.small.shared.size(); ++k) {
+      const std::size_t n = bodies.small.shared[k];
+      held[n] += whole_cell(gas.cells, w.index(n)[0]).volume * (s.mean[n] - first[k]);
+    }
+    for (const Neighbourhood& hood : bodies.small.small) {
+      if (hood.count > 1 || bodies.next_space.volume[hood.cell] > 0.0) continue;
+      const Index cell = w.index(hood.cell);
+      if (!gas.cells.contains(cell) || !gas.cells.find(cell)) continue;
+      if (q == Content::energy)
+        entrapped.back() += s.covered[hood.cell];
+      else if (q < Content::momentum + D)
+        entrapped[gas.fluids.size() + q - Content::momentum] += s.covered[hood.cell];
+      else if ((q - Content::momentum - D) % per_fluid == Content::mass)
+        entrapped[(q - Content::momentum - D) / per_fluid] += s.covered[hood.cell];
+    }
+  }
+}
+
+/// Whether every own cell with gas has mass and more energy than the coldest gas.
+bool all_is_well(const Gas& gas) {
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  const StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  std::vector<char> good(gas.cells.mine.size(), 1);
+  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
+    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
+    for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
+      const Index index = gas.cells.index(block, c);
+      if (!gas.cells.contains(index)) continue;
+      const std::size_t n = w.at(index);
+      if (bodies.next_space.volume[n] == 0.0) continue;
+      const double room = whole_cell(gas.cells, index[0]).volume;
+      double mass = 0.0, thermal = 0.0, kinetic = 0.0;
+      for (std::size_t r = 0; r < gas.fluids.size(); ++r) {
+        const std::size_t first = Content::momentum + D + per_fluid * r;
+        const double own = s.content[first][n];
+        mass += own;
+        if (!(own >= 0.0)) good[i] = 0;
+        if (gas.fluids.size() > 1 && s.content[first + Content::volume][n] < -1e-14 * room) good[i] = 0;
+      }
+      for (std::size_t a = 0; a < D; ++a)
+        kinetic += 0.5 * s.content[Content::momentum + a][n] * s.content[Content::momentum + a][n];
+      thermal = s.content[Content::energy][n] - kinetic / mass;
+      if (gas.fluids.size() == 1) thermal -= mass * coldest_energy(gas.fluids[0], Lanes(mass / room))[0];
+      if (!(mass > 0.0) || !(thermal > 0.0)) good[i] = 0;
+    }
+  });
+  return std::all_of(good.begin(), good.end(), [](char g) { return g != 0; });
+}
+
+/// Whether no own cell gives more than it has.
+bool nothing_is_overdrawn(const Gas& gas, double dt) {
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  const StepFields& s = bodies.fields;
+  for (const std::int32_t b : gas.cells.mine)
+    for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
+      const Index index = gas.cells.index(static_cast<std::size_t>(b), c);
+      if (!gas.cells.contains(index)) continue;
+      const std::size_t n = w.at(index);
+      if (bodies.small.number[n] >= 0 || (bodies.space.volume[n] == 0.0 && bodies.next_space.volume[n] == 0.0)) continue;
+      double out = 0.0;
+      for (std::size_t a = 0; a < static_cast<std::size_t>(w.dimensions); ++a)
+        out += std::max(s.flow[a][n + offset(w, a)], 0.0) - std::min(s.flow[a][n], 0.0);
+      constexpr double most = 0.9, least_volume = 0.2;
+      if (!(dt * out <= most * s.volume[n]) || !(s.volume[n] > least_volume * bodies.space.volume[n])) return false;
+    }
+  return true;
+}
+
+/// Books what passes the sides of the box.
+void book_sides(Gas& gas, double dt) {
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  const StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  for (Passage& passage : gas.passages) {
+    if (passage.side >= 2 * gas.dimensions()) continue;
+    const auto a = static_cast<std::size_t>(passage.side / 2);
+    const bool low = passage.side % 2 == 0;
+    const double sign = low ? 1.0 : -1.0;
+    const Index corner = gas.cells.corner(static_cast<std::size_t>(passage.block));
+    Part layer;
+    for (std::size_t b = 0; b < 3; ++b) {
+      const bool used = b < D;
+      layer.lower[b] = used ? std::max(corner[b], gas.cells.lower[b]) : 0;
+      layer.upper[b] = used ? std::min(corner[b] + line, gas.cells.upper[b]) : 1;
+    }
+    layer.lower[a] = low ? gas.cells.lower[a] : gas.cells.upper[a], layer.upper[a] = layer.lower[a] + 1;
+    for_each_cell_of(layer, [&](const Index& face) {
+      const std::size_t n = w.at(face);
+      passage.step.momentum[a] += sign * dt * bodies.step.area[a][n] * s.pressure[a][n];
+      passage.step.energy += sign * (dt * s.pressure[a][n] * s.flow[a][n] + s.passing[a][Content::energy][n]);
+      for (std::size_t b = 0; b < D; ++b) passage.step.momentum[b] += sign * s.passing[a][Content::momentum + b][n];
+      for (std::size_t r = 0; r < gas.fluids.size(); ++r)
+        passage.step.mass[r] += sign * s.passing[a][Content::momentum + D + per_fluid * r][n];
+    });
+  }
+}
+
+/// Finds where the bodies go, and the cut cells on their way.
+std::vector<MovingBody::State> move_bodies(Gas& gas, double dt) {
+  Bodies& bodies = gas.bodies;
+  std::vector<MovingBody::State> next;
+  bool still = true;
+  for (const MovingBody& body : bodies.all) {
+    next.push_back(moved(body, gas.time, dt));
+    still = still && next.back().displacement == body.state.displacement && next.back().turn == body.state.turn &&
+            next.back().growth == body.state.growth;
+  }
+  if (bodies.window.empty() || (still && bodies.still)) return next;
+  std::vector<BodyPoints> points;
+  for (std::size_t b = 0; b < bodies.all.size(); ++b)
+    points.push_back(points_of(bodies.all[b], gas.cells.geometry, bodies.all[b].state, next[b], dt));
+  put_on_nodes(bodies.window, gas.cells, images_of(gas), points, bodies.nodes);
+  find_open_space(bodies.window, gas.cells, bodies.nodes, bodies.next_space);
+  find_cut_cells(bodies.window, gas.cells, bodies.space, bodies.next_space, bodies.nodes, bodies.step);
+  find_neighbourhoods(bodies.window, gas.cells, bodies.space, bodies.next_space, bodies.step, bodies.small);
+  bodies.still = still;
+  return next;
+}
+
+/// The cells as they are at the end of the step.
+void keep(Gas& gas) {
+  const StepFields& s = gas.bodies.fields;
+  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
+    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
+    for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
+      const Index index = gas.cells.index(block, c);
+      if (!gas.cells.contains(index)) continue;
+      const std::size_t n = gas.bodies.window.at(index);
+      for (std::size_t q = 1; q < s.content.size(); ++q) gas.content.cell(block, static_cast<int>(q), c) = s.content[q][n];
+    }
+  });
+}
+
+}  // namespace
+
+Outcome advance_with_bodies(Gas& gas, double dt, Domain& domain) {
+  Bodies& bodies = gas.bodies;
+  const bool here = !bodies.window.empty();
+  std::vector<MovingBody::State> next = move_bodies(gas, dt);
+  make_room(gas, bodies.fields, bodies.window.length);
+  gather(gas, domain);
+  std::vector<Received> received;
+  if (here) {
+    fill_beyond(gas);
+    half_step(gas, dt);
+    find_faces(gas, dt);
+    received = push_cells(gas, dt);
+  }
+  std::vector<Received> sums(bodies.all.size());
+  settle_with_bodies(gas, received, dt, next, sums, domain);
+  if (here && gas.fluids.size() > 1) share_changes(gas);
+  std::vector<double> entrapped(bodies.entrapped.size(), 0.0);
+  bool good = true;
+  if (here) {
+    find_donors(gas);
+    good = nothing_is_overdrawn(gas, dt);
+    remap(gas, dt);
+    redistribute_all(gas, entrapped);
+    good = good && all_is_well(gas);
+  }
+  if (domain.maximum(good ? 0.0 : 1.0) > 0.0) return Outcome::rejected;
+  if (here) book_sides(gas, dt), keep(gas);
+  book_step(gas.passages);
+  const bool lost = std::any_of(entrapped.begin(), entrapped.end(), [](double x) { return x != 0.0; });
+  if (domain.maximum(lost ? 1.0 : 0.0) > 0.0) {
+    const std::vector<double> total = sum_of_ranks(entrapped, entrapped.size(), domain);
+    for (std::size_t n = 0; n < total.size(); ++n) bodies.entrapped[n].add(total[n]);
+  }
+  for (std::size_t b = 0; b < bodies.all.size(); ++b) {
+    MovingBody& body = bodies.all[b];
+    body.state = next[b], body.force = (1.0 / dt) * sums[b].impulse;
+    for (std::size_t a = 0; a < 3; ++a) body.impulse[a].add(sums[b].impulse[a]);
+    body.work.add(sums[b].work);
+  }
+  if (here) {
+    if (!bodies.still) std::swap(bodies.space, bodies.next_space);
+    keep_open_parts(gas);
+  }
+  gas.time += dt, ++gas.step;
+  begin(gas, domain);
+  return Outcome::done;
+}
+
+}  // namespace brisance::simulator::gas

@@ -1,0 +1,29 @@
+#pragma once
+// State redistribution (Berger & Giuliani, J. Comput. Phys. 428 (2021) 109820): a cell with little gas shares a neighbourhood
+// with others on its open side; what neighbourhoods hold is averaged and given back. Sums are gathered in the order of the
+// cells, so the result does not depend on who visits which cell first.
+
+#include "simulator/gas/cut_cells.hpp"
+
+namespace brisance::simulator::gas {
+
+struct Neighbourhood {
+  std::size_t cell = 0;  // whose it is
+  int count = 0;
+  std::array<std::size_t, 8> members{};  // itself as well, in the order of the cells
+};
+struct Neighbourhoods {
+  std::vector<Neighbourhood> small;    // of cells with less than half of their volume, or that are being covered
+  std::vector<std::int32_t> number;    // of a cell's in `small`; -1: it is alone
+  std::vector<std::uint8_t> overlaps;  // in how many a cell is
+  std::vector<std::size_t> shared;     // cells that are in a neighbourhood in `small`
+};
+void find_neighbourhoods(const Window& window, const Cells& cells, const OpenSpace& before, const OpenSpace& after,
+                         const CutCells& step, Neighbourhoods& all);
+
+/// Averages a quantity: `density` (per volume) of cells with gas, `covered` what cells without any still hold (zero
+/// elsewhere). Both by cell of the window; `volume` is that of their gas.
+void redistribute(const Window& window, const Neighbourhoods& all, const std::vector<double>& volume,
+                  std::vector<double>& density, const std::vector<double>& covered);
+
+}  // namespace brisance::simulator::gas
