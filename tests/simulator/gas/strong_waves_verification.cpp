@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <string>
 #include <tuple>
@@ -178,11 +179,15 @@ TEST(Noh, OnARadiusHasTheShockAndThePlateauOfAnotherCode) {
 }
 
 TEST(Noh, IsRoundInMoreDimensions) {
-  // The goals are a spread of 0.015 and a plateau within 0.03. In the plane the spread is 0.022; about the axis, where the wall
-  // heats the gas on it, 0.053, and the plateau is 7 % low. In space half a cell of 48 is 0.05 of the radius; the plateau is 15
-  // % low, as that on a radius of so many cells.
+  // A spread of 0.015 and a plateau within 0.03: in the plane with 200 cells, about the axis, where the wall heats the gas on
+  // it, with 400, which take longer than a test may; 200 have 0.018 and 0.033. In space, where half a cell of 48 is 0.05 of the
+  // radius, the goal is missed: 0.052 there and 0.054 with 96 cells, the plateau 15 and 6 % low, as on a radius of so many.
+  const bool long_tests = std::getenv("BRISANCE_LONG_TESTS") != nullptr;
+  constexpr double round = isotropic, flat_enough = 0.03;
   for (const auto& [g, cells, roundness, flat] :
-       {std::tuple{in_plane, 100, 0.025, 0.03}, {about_axis, 100, 0.06, 0.08}, {in_space, 48, 0.06, 0.16}}) {
+       {std::tuple{in_plane, 200, round, flat_enough},
+        {about_axis, long_tests ? 400 : 200, long_tests ? round : 0.02, long_tests ? flat_enough : 0.04},
+        {in_space, 48, 0.06, 0.16}}) {
     const auto domain = single_process();
     const Gas gas = noh(g, cells, *domain);
     const Noh exact{5.0 / 3.0, g.symmetry};
