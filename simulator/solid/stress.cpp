@@ -159,8 +159,10 @@ Extremes over_all_ranks(Domain& domain, const Extremes& e) {
 /// The particle that a material could not advance.
 struct Failing {
   Trouble trouble = Trouble::none;
+  const Body* body = nullptr;
   int particle = -1;
   std::uint64_t id = ~std::uint64_t{0};
+  friend bool operator<(const Failing& a, const Failing& b) { return a.id < b.id; }
 };
 
 /// What an update overwrites, of the particles of one chunk.
@@ -241,7 +243,7 @@ void advance_batch(const Simulation& s, Body& body, int first_chunk, int chunks,
       const auto trouble = static_cast<Trouble>(static_cast<int>(p.trouble[i]));
       const int particle = (first_chunk + c) * chunk_size + i;
       const std::uint64_t id = ps.id[static_cast<std::size_t>(particle)];
-      if (trouble != Trouble::none && id < failing.id) failing = {trouble, particle, id};
+      if (trouble != Trouble::none && id < failing.id) failing = {trouble, &body, particle, id};
     }
     look<D>(s, body, first_chunk + c, p.state.density, p.bulk_modulus, p.state.shear_modulus, velocities, extremes);
     extremes.filling = std::max(extremes.filling, largest(filling(range, p.metal_density), used));
@@ -267,9 +269,19 @@ void advance_prescribed(const Simulation& s, Body& body, double dt, const Column
   }
 }
 
+/// Every rank says the same of the first particle of all of them.
+[[noreturn]] void fail_together(const Simulation& s, const Failing& mine, double dt) {
+  Remark remark{0.0, mine.id, {}};
+  if (mine.body)
+    remark.text = fmt::format("{}; {}; neither a whole step of {:.4g} s nor {} parts of it go well",
+                              facts(s, *mine.body, mine.particle), describe(mine.trouble), dt, most_parts);
+  throw std::runtime_error(highest_rated(*s.domain, remark));
+}
+
 template <int D>
 void advance_all(Simulation& s, double dt, ColumnSet Particles::*velocities) {
   Extremes all;
+  Failing first;
   for (Body& body : s.bodies) {
     if (body.stress) {
       advance_prescribed<D>(s, body, dt, body.particles.*velocities, all);
@@ -290,12 +302,9 @@ void advance_all(Simulation& s, double dt, ColumnSet Particles::*velocities) {
                          body.particles.*velocities, *batch, extremes[piece], failing[piece]);
     });
     for (const Extremes& e : extremes) all |= e;
-    const auto worst =
-        std::min_element(failing.begin(), failing.end(), [](const Failing& a, const Failing& b) { return a.id < b.id; });
-    if (worst != failing.end() && worst->trouble != Trouble::none)
-      throw std::runtime_error(fmt::format("{}; {}; neither a whole step of {:.4g} s nor {} parts of it go well",
-                                           facts(s, body, worst->particle), describe(worst->trouble), dt, most_parts));
+    for (const Failing& f : failing) first = std::min(first, f);
   }
+  if (s.domain->maximum(first.body ? 1.0 : 0.0) > 0.0) fail_together(s, first, dt);
   s.extremes = over_all_ranks(*s.domain, all);
 }
 
@@ -345,13 +354,18 @@ template <int D>
 std::string worst_point(const Simulation& s, double dt) {
   const Body* body = nullptr;
   int particle = 0;
-  double fullest = 1.0;
+  Remark fullest{1.0, 0, {}};
   for_each_filling<D>(s, dt, [&](const Body& b, int chunk, const Lanes& filling_of) {
-    for (int i = 0; i < std::min(chunk_size, b.particles.size - chunk * chunk_size); ++i)
-      if (filling_of[i] > fullest) fullest = filling_of[i], body = &b, particle = chunk * chunk_size + i;
+    for (int i = 0; i < std::min(chunk_size, b.particles.size - chunk * chunk_size); ++i) {
+      const int p = chunk * chunk_size + i;
+      const std::uint64_t id = b.particles.id[static_cast<std::size_t>(p)];
+      if (filling_of[i] > fullest.rating || (body && filling_of[i] == fullest.rating && id < fullest.id))
+        fullest.rating = filling_of[i], fullest.id = id, body = &b, particle = p;
+    }
   });
-  if (!body) return fastest_deforming(s) + ": it would be deformed too much";
-  return facts(s, *body, particle) + ": its density would leave the range of the equation of state";
+  if (body) fullest.text = facts(s, *body, particle) + ": its density would leave the range of the equation of state";
+  const std::string of_all = highest_rated(*s.domain, fullest);
+  return of_all.empty() ? fastest_deforming(s) + ": it would be deformed too much" : of_all;
 }
 
 /// Heat (J/kg) between two temperatures (K), at a density (kg/m^3) where the equation of state has to tell.

@@ -29,19 +29,6 @@ std::string facts_of(const Body& body, int p) {
       of(L::Rest::plastic_strain), of(L::Rest::plastic_strain_rate), of(L::Rest::shear_modulus), of(L::Rest::failure_cause));
 }
 
-/// A candidate for the worst particle, as the ranks tell each other.
-struct Candidate {
-  bool spoilt = false;  // what it pushes the grid with is not finite: the others have it from there
-  double norm = -1.0;   // |L|, 1/s; infinite where it is not a number
-  std::size_t body = 0;
-  std::uint64_t id = 0;
-  bool worse_than(const Candidate& b) const {
-    if (spoilt != b.spoilt) return spoilt;
-    if (norm != b.norm) return norm > b.norm;
-    return body != b.body ? body < b.body : id < b.id;
-  }
-};
-
 bool is_finite(const ColumnSet& columns, int particle) {
   for (int k = 0; k < columns.columns(); ++k)
     if (!std::isfinite(columns.at(k, particle))) return false;
@@ -54,34 +41,45 @@ std::string facts(const Simulation& s, const Body& body, int particle) {
   return s.dimensions() == 3 ? facts_of<3>(body, particle) : facts_of<2>(body, particle);
 }
 
+std::string highest_rated(Domain& domain, const Remark& mine) {
+  Message message;
+  append(message, mine.rating), append(message, mine.id),
+      append(message, std::vector<char>(mine.text.begin(), mine.text.end()));
+  Remark highest;
+  for (const Message& m : all_gather(domain, message)) {
+    MessageReader reader(m);
+    Remark remark{reader.read<double>(), reader.read<std::uint64_t>(), {}};
+    const auto words = reader.read_list<char>();
+    if (words.empty()) continue;
+    remark.text.assign(words.begin(), words.end());
+    if (highest.text.empty() || remark.rating > highest.rating || (remark.rating == highest.rating && remark.id < highest.id))
+      highest = std::move(remark);
+  }
+  return highest.text;
+}
+
 std::string fastest_deforming(const Simulation& s) {
-  Candidate worst;
-  int particle = -1;
-  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
-    const Particles& ps = s.bodies[b].particles;
+  // What pushes the grid with something that is not finite comes before those that have it from there.
+  constexpr double spoilt = std::numeric_limits<double>::infinity(), not_finite = std::numeric_limits<double>::max();
+  const Body* body = nullptr;
+  int particle = 0;
+  Remark worst;
+  double gradient = 0.0;
+  for (const Body& b : s.bodies) {
+    const Particles& ps = b.particles;
     for (int p = 0; p < ps.size; ++p) {
       double square = 0.0;
       for (int k = 0; k < ps.gradient.columns(); ++k) square += ps.gradient.at(k, p) * ps.gradient.at(k, p);
-      const double norm = std::isfinite(square) ? std::sqrt(square) : std::numeric_limits<double>::infinity();
-      const Candidate candidate{!is_finite(ps.motion, p) || !is_finite(ps.load, p), norm, b,
-                                ps.id[static_cast<std::size_t>(p)]};
-      if (particle < 0 || candidate.worse_than(worst)) worst = candidate, particle = p;
+      const double rating = !is_finite(ps.motion, p) || !is_finite(ps.load, p) ? spoilt
+                            : std::isfinite(square)                            ? std::sqrt(square)
+                                                                               : not_finite;
+      const std::uint64_t id = ps.id[static_cast<std::size_t>(p)];
+      if (!body || rating > worst.rating || (rating == worst.rating && id < worst.id))
+        body = &b, particle = p, worst.rating = rating, worst.id = id, gradient = std::sqrt(square);
     }
   }
-  const std::string mine = particle < 0 ? "" : facts(s, s.bodies[worst.body], particle);
-  Message message;
-  append(message, worst), append(message, std::vector<char>(mine.begin(), mine.end()));
-  Candidate of_all;
-  std::string text;
-  for (const Message& m : all_gather(*s.domain, message)) {
-    MessageReader reader(m);
-    const auto candidate = reader.read<Candidate>();
-    const auto words = reader.read_list<char>();
-    if (!candidate.worse_than(of_all)) continue;
-    of_all = candidate;
-    text = fmt::format("|L| is {:.4g} /s at {}", candidate.norm, std::string(words.begin(), words.end()));
-  }
-  return text;
+  if (body) worst.text = fmt::format("|L| is {:.4g} /s at {}", gradient, facts(s, *body, particle));
+  return highest_rated(*s.domain, worst);
 }
 
 }  // namespace brisance::simulator

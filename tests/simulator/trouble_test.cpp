@@ -5,12 +5,15 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <map>
 
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "simulator/output/run_directory.hpp"
 #include "simulator/run.hpp"
 #include "tests/simulator/running.hpp"
 #include "tests/simulator/small_bar.hpp"
+#include "tests/simulator/virtual_ranks.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -19,11 +22,11 @@ using by_hand::copper;
 
 using Layout2 = Layout<2>;
 
-/// A copper block in the plane geometry, 64 particles.
-Case block(const Vector& velocity = {}) {
+/// A copper block in the plane geometry, 64 particles if it is 4 mm wide.
+Case block(double side = 4e-3) {
   Case c;
   c.geometry = Geometry::plane, c.cell_size = 1e-3, c.end_time = 1.0;
-  c.bodies.push_back(by_hand::body("block", copper(), by_hand::box({0, 0, 0}, {4e-3, 4e-3, 1}), velocity));
+  c.bodies.push_back(by_hand::body("block", copper(), by_hand::box({0, 0, 0}, {side, side, 1})));
   return c;
 }
 
@@ -76,6 +79,48 @@ TEST(Trouble, ThatNoPartCuresNamesTheParticleAsItWas) {
   EXPECT_TRUE(contains(message, "temperature 300 K")) << message;
   EXPECT_TRUE(contains(message, "64 parts")) << message;
   EXPECT_EQ(s.bodies[0].particles.rest.at(Layout2::Rest::temperature, 5), before);
+}
+
+/// What each rank says when particles with these ids are deformed so fast (1/s).
+template <class F>
+std::vector<std::string> said_by_ranks(int ranks, const std::map<std::uint64_t, double>& rates, F&& say) {
+  std::vector<std::string> said(static_cast<std::size_t>(ranks));
+  VirtualRanks::run(ranks, [&](std::shared_ptr<Domain> domain) {
+    Simulation s = set_up(block(16e-3), domain);
+    Particles& ps = s.bodies[0].particles;
+    EXPECT_GT(ps.size, 0) << "of rank " << domain->rank();
+    set_gradients(s, -1, 1e5, 0.0);
+    for (int p = 0; p < ps.size; ++p)
+      if (const auto rate = rates.find(ps.id[static_cast<std::size_t>(p)]); rate != rates.end())
+        ps.gradient.at(0, p) = rate->second, ps.gradient.at(3, p) = rate->second;
+    said[static_cast<std::size_t>(domain->rank())] = say(s);
+  });
+  return said;
+}
+
+/// The block is 32 by 32 particles in 9 blocks of the grid; one in the first row and one in the last are on different ranks.
+TEST(Trouble, OnOneOfSeveralRanksIsToldByAllInTheSameWords) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), dt = 1e-7;
+  const auto update = [](Simulation& s) -> std::string {
+    try {
+      update_stress(s, dt, &Particles::motion);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "all is well";
+  };
+  const auto too_dense = [](Simulation& s) { return worst_point(s, dt); };
+  const auto expect = [](const std::map<std::uint64_t, double>& rates, const auto& say, const std::string& words) {
+    const std::string one = said_by_ranks(1, rates, say).front();
+    EXPECT_TRUE(contains(one, words)) << one;
+    for (const int ranks : {2, 3}) EXPECT_EQ(said_by_ranks(ranks, rates, say), std::vector<std::string>(ranks, one));
+  };
+  expect({{3, nan}}, update, "particle 3 of block");
+  expect({{1020, nan}}, update, "particle 1020 of block");
+  expect({{1020, nan}, {3, nan}}, update, "particle 3 of block");
+  expect({}, update, "all is well");
+  expect({{3, -5e6}, {1020, -6e6}}, too_dense, "particle 1020 of block");  // a third and less of its volume is left
+  expect({{3, 2e5}, {1020, 3e5}}, too_dense, "particle 1020 of block");    // no density is out of range: the fastest
 }
 
 /// A bar strikes a wall whose material stiffens without bound towards 16 % of compression: the first step, as large as the
