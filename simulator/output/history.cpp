@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <numbers>
 #include <stdexcept>
 #include <system_error>
 
@@ -20,19 +19,6 @@ namespace {
 }
 
 constexpr std::string_view first_columns = "time [s],time_step [s]";
-
-/// The books of round geometries are per radian or steradian.
-double whole_of(Geometry geometry) {
-  switch (geometry) {
-    case Geometry::axisymmetric:
-    case Geometry::cylindrical_1d:
-      return 2.0 * std::numbers::pi;
-    case Geometry::spherical_1d:
-      return 4.0 * std::numbers::pi;
-    default:
-      return 1.0;
-  }
-}
 
 }  // namespace
 

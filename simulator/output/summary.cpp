@@ -28,11 +28,14 @@ std::string in_words(const GasBooks& books) {
 }  // namespace
 
 void write_summary(const Summary& s, const std::filesystem::path& path) {
-  Json measures = Json::object(), comparison = Json::object(), energy = Json::object(), versions = Json::object();
+  Json gauges = Json::object(), measures = Json::object(), comparison = Json::object(), energy = Json::object(),
+       versions = Json::object();
   for (const MeasuredValue& m : s.measures) {
     measures.set(m.name, m.value);
     if (m.measured) comparison.set(m.name, Json::object().set("measured", *m.measured).set("deviation", *m.deviation()));
   }
+  for (const GaugePeak& p : s.peaks)
+    gauges.set(p.name, Json::object().set("peak", p.value).set("unit", p.unit).set("time", p.time));
   for (const BookEntry& entry : entries_of(s.books)) energy.set(entry.name, entry.value);
   if (!s.books.gas)
     energy.set("initial_internal_energy", s.books.initial_internal).set("peak_kinetic_energy", s.books.peak_kinetic);
@@ -44,7 +47,8 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
   Json all = Json::object();
   all.set("title", s.title).set("ending", s.ending).set("message", s.message).set("time", s.time).set("steps", s.steps);
   const std::string points = s.books.gas ? "cell" : "particle";
-  all.set(points + "s", s.particles).set("measures", measures).set("comparison", comparison).set("energy", energy);
+  all.set(points + "s", s.particles).set("measures", measures).set("comparison", comparison).set("gauges", gauges);
+  all.set("energy", energy);
   all.set("wall_time", s.wall_time).set(points + "_steps_per_second", s.particle_steps_per_second).set("threads", s.threads);
   replace_file_by_text(path, all.set("versions", versions).text());
 }

@@ -57,9 +57,10 @@ TEST(GasRun, IsCheckedBeforeAndDrawnAfter) {
   for (const char* nonsense : {"inf", "nan", "warning", "0.0 MB"}) EXPECT_FALSE(contains(check.out, nonsense)) << check.out;
   const Answer ran = call({"run", file, "-o", directory.string(), "--set", "cell_size=0.05"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  for (const char* picture : {"energy.png", "field.png", "line_along_x.png", "line_along_the_diagonal.png"})
+  for (const char* picture : {"energy.png", "gauges.png", "field.png", "line_along_x.png", "line_along_the_diagonal.png"})
     EXPECT_TRUE(fs::exists(directory / picture)) << picture;
   EXPECT_FALSE(contains(text_of(directory / "log.txt"), "missing")) << text_of(directory / "log.txt");
+  EXPECT_TRUE(contains(text_of(directory / "summary.json"), "\"in_the_way_pressure_00\": {"));
   EXPECT_EQ(call({"report", directory.string()}).code, 0);
 }
 
