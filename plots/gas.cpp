@@ -104,8 +104,7 @@ double error_of_return(const Ran& ran) {
   double square = 0.0;
   gas::for_each_cell(gas, [&](const gas::CellPlace& at) {
     const Vector away = gas.cells.centre(at.block, at.cell) - config.centre;
-    const double r = std::sqrt(dot(away, away)), small = 1e-9;
-    const double exact = mean_of(start.place, start.density, r, r + small);
+    const double exact = gas::interpolate(start.place, start.density, std::sqrt(dot(away, away)));
     square += std::pow(gas.primitive.cell(at.block, gas::Primitive::density, at.cell) - exact, 2);
   });
   return std::sqrt(square / static_cast<double>(gas.cells.count()));

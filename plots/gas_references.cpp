@@ -163,6 +163,19 @@ void add_shu_osher(Tables& all) {
   add_fine_grid(all, "shu_osher", "Problem of Shu & Osher, J. Comput. Phys. 83 (1989) 32,", gas, 1.8);
 }
 
+void add_cylindrical_explosion(Tables& all) {
+  Euler1D gas;
+  gas.dimension = 2, gas.at_upper = {EndKind::transmissive};
+  gas.cells.resize(fine_grid);
+  for (int i = 0; i < fine_grid; ++i)
+    gas.cells[static_cast<std::size_t>(i)] = gas.centre(i) < 0.4 ? GasState{1.0, 0.0, 1.0} : GasState{0.125, 0.0, 0.1};
+  add_fine_grid(all, "cylindrical_explosion", "Radial solution of the cylindrical explosion of Toro (2009), section 17.1,", gas,
+                0.25);
+  Table& table = all["cylindrical_explosion"];
+  table.header = along_any_ray;
+  for (std::vector<double>& w : table.rows) w.insert(w.begin(), w.front());
+}
+
 void add_woodward_colella(Tables& all) {
   Euler1D gas;
   gas.cells.resize(fine_grid);
@@ -283,7 +296,7 @@ int main(int argc, char** argv) {
   add_riemann_problems(all);
   add_noh(all, "noh_cylindrical", 2), add_noh(all, "noh_spherical", 3);
   add_sedov(all);
-  add_shu_osher(all), add_woodward_colella(all);
+  add_shu_osher(all), add_woodward_colella(all), add_cylindrical_explosion(all);
   add_entropy_wave(all), add_vortices(all), add_hydrostatic_column(all);
   add_water_slab(all), add_impacts(all);
   for (const auto& [name, table] : all) write(directory / (name + ".csv"), table);

@@ -460,7 +460,7 @@ class CaseReader : public KeyReader<CaseReader> {
     if (fill.energy) {
       if (!elsewhere.pressure.empty()) in.problem("energy", "the pressure is in the profile; give one of the two");
       if (!fill.shape) in.problem("shape", "missing: the region that the energy is put into");
-      if (!fill.density && elsewhere.density.empty()) in.problem("density", "missing: an energy needs it");
+      if (!fill.density) in.problem("density", "missing: an energy needs it");
       elsewhere.pressure = "the energy";
     }
     check_gas_state(in, fill, elsewhere);
@@ -488,15 +488,14 @@ class CaseReader : public KeyReader<CaseReader> {
     if (std::any_of(others.begin(), others.end(), same_side)) in.problem("side", "this side is given twice; give each once");
     if (static_cast<std::size_t>(edge.side) / 2 >= dimensions())
       in.problem("side", fmt::format("in {} dimension{} there is no such side", dimensions(), dimensions() == 1 ? "" : "s"));
-    const bool given =
-        in.has("pressure") || in.has("density") || in.has("temperature") || in.has("velocity") || in.has("fluid");
+    // A velocity of zero says nothing: a case that a run has written holds one at every edge.
+    const bool more = in.has("density") || in.has("temperature") || edge.velocity != Vector{} || in.has("fluid");
     if (edge.kind == EdgeKind::inflow || edge.kind == EdgeKind::non_reflecting) {
       check_gas_state(in, edge);
     } else if (edge.kind == EdgeKind::pressure) {
       if (!in.has("pressure")) in.problem("pressure", "missing: the pressure beyond");
-      if (in.has("density") || in.has("temperature") || in.has("velocity") || in.has("fluid"))
-        in.problem("only the pressure counts beyond an edge of this kind; remove the rest, or make it non_reflecting");
-    } else if (given) {
+      if (more) in.problem("only the pressure counts beyond an edge of this kind; remove the rest, or make it non_reflecting");
+    } else if (more || in.has("pressure")) {
       in.problem("a state would be ignored: nothing comes through a wall or from beyond a period");
     }
   }

@@ -22,14 +22,6 @@ int number_of(const GasConfig& config, const std::string& fluid) {
   return number;
 }
 
-/// Linear between the rows, constant beyond them.
-double interpolate(const std::vector<double>& place, const std::vector<double>& value, double x) {
-  const auto above = static_cast<std::size_t>(std::upper_bound(place.begin(), place.end(), x) - place.begin());
-  if (above == 0) return value.front();
-  if (above == place.size()) return value.back();
-  return std::lerp(value[above - 1], value[above], (x - place[above - 1]) / (place[above] - place[above - 1]));
-}
-
 /// Volume of the part of a cell between two values of x, over what a part of a straight cell has.
 double widened(Geometry geometry, double low, double high) {
   const double middle = 0.5 * (low + high);
@@ -81,6 +73,13 @@ StateProfile read_state_profile(const ProfileConfig& config) {
   if (std::any_of(profile.density.begin(), profile.density.end(), [](double rho) { return !(rho > 0.0); }))
     fail("a density is not above 0");
   return profile;
+}
+
+double interpolate(const std::vector<double>& place, const std::vector<double>& column, double x) {
+  const auto above = static_cast<std::size_t>(std::upper_bound(place.begin(), place.end(), x) - place.begin());
+  if (above == 0) return column.front();
+  if (above == place.size()) return column.back();
+  return std::lerp(column[above - 1], column[above], (x - place[above - 1]) / (place[above] - place[above - 1]));
 }
 
 InitialState::InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells) : cells_(&cells) {
