@@ -3,7 +3,8 @@
 #   run       the main job: Taylor impact of annealed copper; prints computed against measured, shows the figure
 #   point     the point driver's job: 6061-T6 through 95 measured curves; prints the table, shows the figure
 #   test      unit and verification tests
-#   validate  figures of the laws and Taylor impacts against experiment   (validate NAME: one; --full: all; --list)
+#   validate  figures of the laws, Taylor impacts against experiment, the gas against exact solutions
+#             (validate NAME: one; --full: all; --list)
 #   bench     nanoseconds per update and per particle-step, with the environment beside them
 # Environment: BRISANCE_PRESET (default release; ci makes warnings errors), BRISANCE_JOBS (default: all cores).
 set -euo pipefail
@@ -14,7 +15,7 @@ packages=(build-essential cmake ninja-build pkg-config libeigen3-dev librandom12
           libgnuplot-iostream-dev gnuplot-nox libboost-iostreams-dev libboost-filesystem-dev libboost-system-dev)
 
 usage() {
-  sed -n '2,8s/^# \{0,1\}//p' "$0"
+  sed -n '2,9s/^# \{0,1\}//p' "$0"
   exit 2
 }
 
@@ -73,11 +74,18 @@ case $action in
     ;;
   validate)
     install_packages
-    build -DBRISANCE_BUILD_TESTS=OFF gallery taylor
+    build -DBRISANCE_BUILD_TESTS=OFF gallery taylor gas
     case ${1:-} in
-      "" | --full) "$build/plots/gallery" && "$build/plots/taylor" "$@" ;;
-      --list) "$build/plots/gallery" --list && "$build/plots/taylor" --list ;;
+      "" | --full)
+        missed=0  # one that misses a limit does not keep the others from being made
+        "$build/plots/gallery" || missed=1
+        "$build/plots/taylor" "$@" || missed=1
+        "$build/plots/gas" || missed=1
+        exit $missed
+        ;;
+      --list) for program in gallery taylor gas; do "$build/plots/$program" --list; done ;;
       taylor_*) "$build/plots/taylor" "$@" ;;
+      gas_*) "$build/plots/gas" "$@" ;;
       *) "$build/plots/gallery" "$@" ;;
     esac
     ;;

@@ -17,11 +17,8 @@
 
 #include "models/programs/figure.hpp"
 #include "models/programs/files.hpp"
-#include "simulator/case_reader.hpp"
 #include "simulator/output/measures.hpp"
-#include "simulator/output/run_directory.hpp"
-#include "simulator/run.hpp"
-#include "simulator/setup.hpp"
+#include "validation.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -136,13 +133,6 @@ std::string table(const std::vector<Done>& runs, const std::string& commit) {
   return text;
 }
 
-/// A statement about one or two runs that must hold, with the number it rests on.
-struct Check {
-  std::string text;
-  double value, limit;
-  bool holds() const { return value <= limit; }
-};
-
 /// What the runs at hand allow to check. The limits are what a good code reaches on these tests with published constants.
 std::vector<Check> checks(const std::vector<Done>& runs) {
   std::vector<Check> all;
@@ -207,13 +197,6 @@ std::vector<Check> checks(const std::vector<Done>& runs) {
   return all;
 }
 
-std::string table(const std::vector<Check>& all) {
-  std::string text = "\n| check | measured | limit | |\n|---|---|---|---|\n";
-  for (const Check& c : all)
-    text += fmt::format("| {} | {:.4f} | {} | {} |\n", c.text, c.value, c.limit, c.holds() ? "holds" : "MISSED");
-  return text;
-}
-
 Curve profile_curve(const std::string& title, const std::vector<double>& radius, const std::vector<double>& height, Mark mark,
                     int colour) {
   Curve curve{title, radius, height, mark, colour};
@@ -261,34 +244,19 @@ Figure figure(const std::vector<Done>& runs) {
   return figure;
 }
 
-std::string commit_hash() {
-  std::string hash = "unknown";
-  if (FILE* pipe = popen("git rev-parse --short HEAD 2>/dev/null", "r")) {
-    char text[64] = {};
-    if (fgets(text, sizeof text, pipe)) hash = std::string(text).substr(0, std::string(text).find('\n'));
-    pclose(pipe);
-  }
-  return hash;
-}
-
 int run_all(const std::vector<std::string>& names, bool full, const std::filesystem::path& output) {
   std::vector<Done> runs;
   for (const Entry& e : entries()) {
     const bool named = std::find(names.begin(), names.end(), e.name) != names.end();
     if (!(named || (names.empty() && (full || !e.full())))) continue;
-    const Case c = read_case(std::filesystem::path(BRISANCE_DATA) / "cases" / (e.file + ".toml"), e.changes);
-    Simulation s = set_up(c);
-    const std::filesystem::path directory = output / "runs" / e.name;
-    prepare_directory(directory, c, true);
-    RunOptions options;
-    options.directory = directory;
-    const RunResult result = run(c, s, options);
+    const Ran ran = run_case(e.file, e.changes, output / "runs" / e.name);
+    const RunResult& result = ran.result;
     fmt::print("{:44} D {:5.1f} %   {:7.1f} s{}\n", e.name, 100.0 * mean_error(result.summary), result.summary.wall_time,
                result.ending == Ending::done ? "" : "   " + result.message);
     std::fflush(stdout);
     if (result.ending == Ending::interrupted) return 3;
     if (result.ending == Ending::failed) return 1;
-    runs.push_back({e, c, result.summary, {profile_of(s, s.bodies[0], Axis::y)}});
+    runs.push_back({e, ran.config, result.summary, {profile_of(ran.simulation, ran.simulation.bodies[0], Axis::y)}});
   }
   if (runs.empty()) throw std::invalid_argument("taylor: no run of that name; `--list` shows all");
   std::filesystem::create_directories(output);

@@ -15,6 +15,7 @@
 #include "models/input/csv.hpp"
 #include "models/input/table_reader.hpp"
 #include "simulator/gas/fields.hpp"
+#include "simulator/gas/initial_state.hpp"
 #include "simulator/keys.hpp"
 #include "simulator/output/gauges.hpp"
 #include "simulator/output/line_out.hpp"
@@ -124,6 +125,10 @@ class CaseReader : public KeyReader<CaseReader> {
   void read_value(TableReader& in, const K& key, std::optional<InitialPorosity>& value) {
     TableReader table = in.table(key.name);
     read_law(table, value.emplace());
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, std::optional<ProfileConfig>& value) {
+    value = read_struct<ProfileConfig>(in.table(key.name));
   }
   template <class K>
   void read_value(TableReader& in, const K& key, std::optional<GasConfig>& value) {
@@ -444,8 +449,12 @@ class CaseReader : public KeyReader<CaseReader> {
       in.problem("material", "its equation of state gives differences of pressure only; a fluid needs p(rho, e)");
   }
 
+  /// `elsewhere`: where else density and pressure come from; empty: nowhere.
+  struct Elsewhere {
+    std::string density, pressure;
+  };
   template <class State>
-  void check_gas_state(TableReader& in, State& state) {
+  void check_gas_state(TableReader& in, State& state, const Elsewhere& elsewhere = {}) {
     if (state.fluid.empty() && gas_->fluids.size() == 1) {
       state.fluid = gas_->fluids.front().name;
     } else {
@@ -457,34 +466,64 @@ class CaseReader : public KeyReader<CaseReader> {
         in.problem("fluid", "there is no fluid " + in_quotes(state.fluid) + "; there is " + listed(names) +
                                 did_you_mean(state.fluid, names));
     }
-    if (!in.has("pressure")) in.problem("pressure", "missing: the pressure of the gas");
-    if (state.density.has_value() == state.temperature.has_value())
+    if (!in.has("pressure") && elsewhere.pressure.empty()) in.problem("pressure", "missing: the pressure of the gas");
+    if (in.has("pressure") && !elsewhere.pressure.empty())
+      in.problem("pressure", "it follows from " + elsewhere.pressure + "; give one of the two");
+    if (!elsewhere.density.empty()) {
+      if (state.density || state.temperature)
+        in.problem(state.density ? "density" : "temperature",
+                   "the density is in " + elsewhere.density + "; give one of the two");
+    } else if (state.density.has_value() == state.temperature.has_value())
       in.problem(state.density ? "there are a density and a temperature; give one of the two"
                                : "neither density nor temperature is given; give one of the two");
   }
   void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& others) {
-    check_gas_state(in, fill);
+    Elsewhere elsewhere;
+    if (fill.profile) check_profile(in, *fill.profile, elsewhere);
+    if (fill.energy) {
+      if (!elsewhere.pressure.empty()) in.problem("energy", "the pressure is in the profile; give one of the two");
+      if (!fill.shape) in.problem("shape", "missing: the region that the energy is put into");
+      if (!fill.density) in.problem("density", "missing: an energy needs it");
+      elsewhere.pressure = "the energy";
+    }
+    check_gas_state(in, fill, elsewhere);
     if (others.empty() && fill.shape) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
+  }
+  void check_profile(TableReader& in, const ProfileConfig& profile, Elsewhere& elsewhere) {
+    const bool radius = profile.along == ProfileAlong::radius;
+    if (!radius && static_cast<std::size_t>(profile.along) >= dimensions())
+      in.problem("profile", fmt::format("there is no {} in this geometry",
+                                        choices<ProfileAlong>[static_cast<std::size_t>(profile.along)]));
+    if (!radius && profile.centre != Vector{}) in.problem("profile", "its centre would be ignored: it is not along radius");
+    if (is_round(case_.geometry) && profile.centre[0] != 0.0) in.problem("profile", "its centre lies on the axis; give r = 0");
+    try {
+      const gas::StateProfile read = gas::read_state_profile(profile);
+      if (!read.velocity_around.empty() && !(radius && case_.geometry == Geometry::plane))
+        in.problem("profile", "velocity_around needs the plane geometry and along = \"radius\"");
+      if (!read.density.empty()) elsewhere.density = "the profile";
+      if (!read.pressure.empty()) elsewhere.pressure = "the profile";
+    } catch (const InputError& error) {
+      in.add_problems(error.problems());
+    }
   }
   void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& others) {
     const auto same_side = [&](const EdgeConfig& other) { return other.side == edge.side; };
     if (std::any_of(others.begin(), others.end(), same_side)) in.problem("side", "this side is given twice; give each once");
     if (static_cast<std::size_t>(edge.side) / 2 >= dimensions())
       in.problem("side", fmt::format("in {} dimension{} there is no such side", dimensions(), dimensions() == 1 ? "" : "s"));
-    const bool given =
-        in.has("pressure") || in.has("density") || in.has("temperature") || in.has("velocity") || in.has("fluid");
+    // A velocity of zero says nothing: a case that a run has written holds one at every edge.
+    const bool more = in.has("density") || in.has("temperature") || edge.velocity != Vector{} || in.has("fluid");
     if (edge.kind == EdgeKind::inflow || edge.kind == EdgeKind::non_reflecting) {
       check_gas_state(in, edge);
     } else if (edge.kind == EdgeKind::pressure) {
       if (!in.has("pressure")) in.problem("pressure", "missing: the pressure beyond");
-      if (in.has("density") || in.has("temperature") || in.has("velocity") || in.has("fluid"))
-        in.problem("only the pressure counts beyond an edge of this kind; remove the rest, or make it non_reflecting");
+      if (more) in.problem("only the pressure counts beyond an edge of this kind; remove the rest, or make it non_reflecting");
     } else if (edge.kind == EdgeKind::no_slip) {
       if (in.has("pressure") || in.has("density") || in.has("fluid"))
         in.problem("of a wall only its velocity and temperature count; remove the rest");
       if (edge.velocity[static_cast<std::size_t>(edge.side) / 2] != 0.0)
         in.problem("velocity", "a wall moves along itself only; make the component across it 0");
-    } else if (given) {
+    } else if (more || in.has("pressure")) {
       in.problem("a state would be ignored: nothing comes through a wall or from beyond a period");
     }
   }

@@ -71,6 +71,7 @@ class CaseWriter {
   }
   std::string value(const InitialVelocity& velocity, Components) const { return inline_table(velocity); }
   std::string value(const StrengthDistribution& strength, Components) const { return inline_table(strength); }
+  std::string value(const ProfileConfig& profile, Components) const { return inline_table(profile); }
   static std::string value(const InitialPorosity& porosity, Components) {
     return std::visit(
         []<class Law>(const Law& law) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -24,6 +25,12 @@ constexpr int number_of_dimensions(Geometry g) {
 /// Whether x is a radius.
 constexpr bool is_round(Geometry g) {
   return g == Geometry::axisymmetric || g == Geometry::cylindrical_1d || g == Geometry::spherical_1d;
+}
+/// The whole over what books per radian or steradian hold; in one and two straight dimensions the whole is 1 m^2 or 1 m deep.
+constexpr double whole_of(Geometry g) {
+  return g == Geometry::axisymmetric || g == Geometry::cylindrical_1d ? 2.0 * std::numbers::pi
+         : g == Geometry::spherical_1d                                ? 4.0 * std::numbers::pi
+                                                                      : 1.0;
 }
 enum class Basis { quadratic_spline, ugimp };
 /// When the stress is updated within the step: from the velocities mapped back after the particles have moved (musl), from the
@@ -148,11 +155,21 @@ struct GasStateConfig {
   std::string fluid;                  // empty: the only one
   std::optional<double> density;      // kg/m^3; this or the temperature
   std::optional<double> temperature;  // K
-  double pressure = 0.0;              // Pa
+  std::optional<double> pressure;     // Pa
   Vector velocity{};                  // m/s
 };
+/// Along what the columns of a profile are given: a coordinate, or the distance from a centre.
+enum class ProfileAlong { x, y, z, radius };
+/// Density, pressure and velocity that vary along a line, from a CSV file.
+struct ProfileConfig {
+  std::filesystem::path file;
+  ProfileAlong along = ProfileAlong::x;
+  Vector centre{};  // m; along radius
+};
 struct FillConfig : GasStateConfig {
-  ShapePointer shape;  // absent: everywhere
+  ShapePointer shape;                    // absent: everywhere
+  std::optional<ProfileConfig> profile;  // its columns instead of the values above; its velocity is added
+  std::optional<double> energy;          // J, internal, of all that the region holds; instead of the pressure
 };
 struct EdgeConfig : GasStateConfig {
   BoxSide side = BoxSide::low_x;
@@ -300,6 +317,9 @@ inline constexpr std::array choices<simulator::EdgeKind> = {std::string_view{"wa
                                                             std::string_view{"periodic"}, std::string_view{"no_slip"}};
 template <>
 inline constexpr std::array choices<simulator::GasScheme> = {std::string_view{"ice"}, std::string_view{"ice_classic"}};
+template <>
+inline constexpr std::array choices<simulator::ProfileAlong> = {std::string_view{"x"}, std::string_view{"y"},
+                                                                std::string_view{"z"}, std::string_view{"radius"}};
 template <>
 inline constexpr std::array choices<simulator::BoxSide> = {std::string_view{"low_x"}, std::string_view{"high_x"},
                                                            std::string_view{"low_y"}, std::string_view{"high_y"},

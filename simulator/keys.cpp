@@ -78,6 +78,11 @@ class Describer : public KeyDescriber<Describer> {
     describe_all<StrengthDistribution>(path);
   }
   template <class K>
+  void describe(const std::string& path, const K& key, const std::optional<ProfileConfig>&) {
+    add(path, key, "a table");
+    describe_all<ProfileConfig>(path);
+  }
+  template <class K>
   void describe(const std::string& path, const K& key, const std::optional<GasConfig>&) {
     describe(path, key, GasConfig{});
   }

@@ -151,15 +151,30 @@ inline constexpr auto keys<FluidConfig> = std::tuple{
 template <class Config>
 inline constexpr auto gas_state_keys =
     std::tuple{Key<Config, std::string>{"fluid", &Config::fluid, Unit::one, "which fluid it is; the only one if not given"},
-               Key<Config, double>{"pressure", &Config::pressure, Unit::Pa, "its pressure"},
+               Key<Config, std::optional<double>>{"pressure", &Config::pressure, Unit::Pa, "its pressure"},
                Key<Config, std::optional<double>>{"density", &Config::density, Unit::kg_per_m3, "its density, or", positive},
                Key<Config, std::optional<double>>{"temperature", &Config::temperature, Unit::K, "its temperature", positive},
                Key<Config, Vector>{"velocity", &Config::velocity, Unit::m_per_s, "its velocity"}};
 
 template <>
+inline constexpr auto keys<ProfileConfig> = std::tuple{
+    Key{"file", &ProfileConfig::file, Unit::one,
+        "CSV beside this file: a column named as `along`, rising (two rows of one place make a jump), and one or more of "
+        "density, pressure, velocity_along (in the direction of `along`) and velocity_around (the centre, in the plane)",
+        any_value, required},
+    Key{"along", &ProfileConfig::along, Unit::one, "a coordinate, or the distance from the centre", any_value, required},
+    Key{"centre", &ProfileConfig::centre, Unit::m, "where the radius begins"}};
+
+template <>
 inline constexpr auto keys<FillConfig> = std::tuple_cat(
     std::tuple{Key{"shape", &FillConfig::shape, Unit::one, "the region it fills at the start; all of the box if not given"}},
-    gas_state_keys<FillConfig>);
+    gas_state_keys<FillConfig>,
+    std::tuple{Key{"profile", &FillConfig::profile, Unit::one,
+                   "a file with states along a line, instead of a density or pressure that it holds; its velocity is added"},
+               Key{"energy", &FillConfig::energy, Unit{"J"},
+                   "internal energy of all that the region holds within the box, instead of the pressure: of a whole turn or "
+                   "sphere in the round geometries, per m or m^2 in one and two straight dimensions",
+                   positive}});
 
 template <>
 inline constexpr auto keys<EdgeConfig> = std::tuple_cat(

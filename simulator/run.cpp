@@ -261,6 +261,7 @@ class Run {
     summary.particle_steps_per_second = static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds;
     summary.books = books_of(s_);
     summary.measures = measures_.read(s_);
+    if (history_) summary.peaks = peaks_of(read_gauges(case_, options_.directory));
   }
 
   const Case& case_;

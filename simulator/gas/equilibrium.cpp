@@ -366,28 +366,33 @@ void find_equilibrium(Gas& gas) {
   }
 }
 
-void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell, const Filling& filling) {
+void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell, std::span<const Portion> portions) {
   const int D = gas.dimensions();
   const auto i = static_cast<std::size_t>(gas.cells.index(block, cell)[0] - gas.cells.metric.first);
-  const double room = gas.cells.metric.volume[i], mass = filling.density * room;
-  const EquationOfState& law = gas.fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state;
-  const double internal = mass * energy_of(law, filling.density, filling.pressure);
-  double kinetic = 0.0;
-  for (int a = 0; a < D; ++a) {
-    const double u = filling.velocity[static_cast<std::size_t>(a)];
-    content.cell(block, Content::momentum + a, cell) = mass * u;
-    kinetic += 0.5 * mass * u * u;
-  }
-  content.cell(block, Content::room, cell) = room;
-  content.cell(block, Content::energy, cell) = internal + kinetic;
-  for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r) {
-    const int first = Content::fluids(D) + r * gas.fluid_quantities();
-    const bool here = r == filling.fluid;
-    content.cell(block, first + Content::mass, cell) = here ? mass : 0.0;
+  const double whole = gas.cells.metric.volume[i];
+  for (int q = 0; q < content.quantities(); ++q) content.cell(block, q, cell) = 0.0;
+  content.cell(block, Content::room, cell) = whole;
+  for (const auto& [part, filling] : portions) {
+    const double room = part * whole, mass = filling.density * room;
+    const EquationOfState& law = gas.fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state;
+    const double internal = mass * energy_of(law, filling.density, filling.pressure);
+    double kinetic = 0.0;
+    for (int a = 0; a < D; ++a) {
+      const double u = filling.velocity[static_cast<std::size_t>(a)];
+      content.cell(block, Content::momentum + a, cell) += mass * u;
+      kinetic += 0.5 * mass * u * u;
+    }
+    content.cell(block, Content::energy, cell) += internal + kinetic;
+    const int first = Content::fluids(D) + filling.fluid * gas.fluid_quantities();
+    content.cell(block, first + Content::mass, cell) += mass;
     if (gas.fluid_quantities() == 1) continue;
-    content.cell(block, first + Content::volume, cell) = here ? room : 0.0;
-    content.cell(block, first + Content::internal, cell) = here ? internal : 0.0;
+    content.cell(block, first + Content::volume, cell) += room;
+    content.cell(block, first + Content::internal, cell) += internal;
   }
+}
+void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell, const Filling& filling) {
+  const Portion all{1.0, filling};
+  write_content(gas, content, block, cell, {&all, 1});
 }
 
 void write_primitive(Gas& gas, std::size_t block, int cell, const Filling& filling) {

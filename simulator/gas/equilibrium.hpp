@@ -3,6 +3,8 @@
 // volume. One fluid: its equation of state. Several: the pressure at which their volumes fill the cell, each fluid doing work
 // against that pressure, so that the energy of the cell stays what it is.
 
+#include <span>
+
 #include "simulator/gas/gas.hpp"
 
 namespace brisance::simulator::gas {
@@ -36,7 +38,8 @@ bool all_cells_hold_heat(Gas& gas, const CellSet& content);
 /// Primitives of all own blocks, with the largest rates of waves and motion.
 void find_equilibrium(Gas& gas);
 
-/// Content and primitives of a cell of one fluid.
+/// Content of a cell by its portions; content and primitives of a cell of one fluid.
+void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell, std::span<const Portion> portions);
 void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell, const Filling& filling);
 void write_primitive(Gas& gas, std::size_t block, int cell, const Filling& filling);
 

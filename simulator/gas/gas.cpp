@@ -75,6 +75,15 @@ bool try_step(Gas& gas, double dt, Domain& domain) {
 }  // namespace
 
 void fill(Gas& gas, const FillingFunction& filling, Domain& domain) {
+  fill_in_portions(
+      gas,
+      [&](const Vector& middle) {
+        return std::vector<Portion>{{1.0, filling(middle, gas.time)}};
+      },
+      domain);
+}
+
+void fill_in_portions(Gas& gas, const PortionsFunction& portions, Domain& domain) {
   const int packs = gas.cells.packs(), D = gas.dimensions();
   const std::size_t blocks = gas.cells.blocks.size();
   for (CellSet* set : {&gas.content, &gas.moved, &gas.next}) {
@@ -87,17 +96,20 @@ void fill(Gas& gas, const FillingFunction& filling, Domain& domain) {
   gas.swept.assign(blocks * static_cast<std::size_t>(D * (D == 3 ? 8 : 1) * line_faces), Lanes(0.0));
   open_passages(gas);
   for (Fluid& fluid : gas.fluids) give_usual_state(fluid);
-  for (std::size_t block = 0; block < blocks; ++block)
+  // Cells that are not of the box hold something all the same: they are computed with, to no effect.
+  Vector corner{};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a) corner[a] = (gas.cells.lower[a] + 0.5) * gas.cells.cell_size;
+  const std::vector<Portion> beyond = {{1.0, portions(corner).front().filling}};
+  parallel_for_blocks(blocks, [&](std::size_t block) {
     for (int c = 0; c < 8 * packs; ++c) {
-      // Cells that are not of the box hold something all the same: they are computed with, to no effect.
-      Vector x = gas.cells.centre(block, c);
-      for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a)
-        x[a] = std::clamp(x[a], (gas.cells.lower[a] + 0.5) * gas.cells.cell_size,
-                          (gas.cells.upper[a] - 0.5) * gas.cells.cell_size);
-      const Filling f = filling(x, gas.time);
-      for (CellSet* set : {&gas.content, &gas.moved, &gas.next}) write_content(gas, *set, block, c, f);
-      write_primitive(gas, block, c, f);
+      const bool inside = gas.cells.contains(gas.cells.index(block, c));
+      const std::vector<Portion> held = inside ? portions(gas.cells.centre(block, c)) : beyond;
+      write_content(gas, gas.content, block, c, held);
+      for (CellSet* set : {&gas.moved, &gas.next})
+        for (int q = 0; q < set->quantities(); ++q) set->cell(block, q, c) = gas.content.cell(block, q, c);
+      write_primitive(gas, block, c, held.front().filling);
     }
+  });
   if (gas.implicit) open_implicit(gas, domain);
   place_bodies(gas, domain);
   begin(gas, domain);

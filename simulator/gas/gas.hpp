@@ -168,8 +168,17 @@ struct Gas {
   int contents() const { return Content::fluids(dimensions()) + static_cast<int>(fluids.size()) * fluid_quantities(); }
 };
 
-/// Allocates the cells and fills them; makes the gas ready for its first step.
+/// Allocates the cells and fills them with what is at their middles; makes the gas ready for its first step.
 void fill(Gas& gas, const FillingFunction& filling, Domain& domain);
+/// What fills a part of a cell's volume.
+struct Portion {
+  double part = 1.0;
+  Filling filling;
+};
+/// The same with a mixture in each cell: masses, momenta and energies of its portions. Their parts add up to 1; of several
+/// fluids each takes its part of the volume, and they come to one pressure.
+using PortionsFunction = std::function<std::vector<Portion>(const Vector& middle)>;
+void fill_in_portions(Gas& gas, const PortionsFunction& portions, Domain& domain);
 /// Pressures and rates from the contents: after filling, and after a restart.
 void begin(Gas& gas, Domain& domain);
 /// The largest step (s) for a Courant number.

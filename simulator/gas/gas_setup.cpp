@@ -2,26 +2,10 @@
 
 #include <cmath>
 
-#include "models/equation_of_state/thermodynamics.hpp"
-#include "simulator/solid/shapes.hpp"
+#include "simulator/gas/initial_state.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
-
-int number_of(const GasConfig& config, const std::string& fluid) {
-  int number = 0;
-  while (config.fluids[static_cast<std::size_t>(number)].name != fluid) ++number;
-  return number;
-}
-
-Filling filling_of(const GasConfig& config, const std::vector<Fluid>& fluids, const GasStateConfig& state) {
-  Filling filling;
-  filling.fluid = number_of(config, state.fluid);
-  const EquationOfState& law = fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state;
-  filling.density = state.density ? *state.density : equation_of_state::density_at(law, state.pressure, *state.temperature);
-  filling.pressure = state.pressure, filling.velocity = state.velocity;
-  return filling;
-}
 
 std::string name_of(std::size_t side) {
   return std::string(choices<BoxSide>[side]);
@@ -53,22 +37,16 @@ Gas make_gas(const Case& c, Domain& domain) {
     made.kind = edge.kind;
     Filling beyond;
     if (edge.kind == EdgeKind::pressure)
-      beyond.pressure = edge.pressure;
+      beyond.pressure = *edge.pressure;
     else if (edge.kind == EdgeKind::no_slip)
       beyond.velocity = edge.velocity, made.temperature = edge.temperature;
     else if (edge.kind != EdgeKind::wall && edge.kind != EdgeKind::periodic)
       beyond = filling_of(config, gas.fluids, edge);
     made.beyond = [beyond](const Vector&, double) { return beyond; };
   }
-  std::vector<Filling> fillings;
-  for (const FillConfig& fill : config.fills) fillings.push_back(filling_of(config, gas.fluids, fill));
-  const auto filling = [&](const Vector& x, double) {
-    std::size_t last = 0;
-    for (std::size_t f = 0; f < fillings.size(); ++f)
-      if (!config.fills[f].shape || contains(*config.fills[f].shape, x)) last = f;
-    return fillings[last];
-  };
-  fill(gas, filling, domain);
+  const InitialState start(config, gas.fluids, gas.cells);
+  fill_in_portions(
+      gas, [&](const Vector& middle) { return start.in_cell(middle); }, domain);
   return gas;
 }
 

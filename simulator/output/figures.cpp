@@ -12,6 +12,7 @@
 #include "simulator/gas/fields.hpp"
 #include "simulator/output/extensive.hpp"
 #include "simulator/output/fields.hpp"
+#include "simulator/output/gauge_history.hpp"
 #include "simulator/output/line_out.hpp"
 #include "simulator/output/measures.hpp"
 
@@ -61,6 +62,17 @@ std::string in_words(std::string_view field) {
 void legend_beside(Panel& panel) {
   panel.legend = "outside right top vertical Left reverse";
   panel.legend_width = 27;
+}
+
+/// What is the same everywhere but for rounding is drawn as level, not as noise.
+void level(Panel& panel) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Curve& curve : panel.curves)
+    for (const double y : curve.y) low = std::min(low, y), high = std::max(high, y);
+  constexpr double rounding = 1e-6, margin = 0.1;
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (high - low <= rounding * size && std::isfinite(size))
+    panel.y_range = {{low - margin * (size > 0.0 ? size : 1.0), high + margin * (size > 0.0 ? size : 1.0)}};
 }
 
 bool is_mirrored(const Simulation& s, int axis) {
@@ -128,6 +140,42 @@ void draw_gas_energy(const Case& c, const Simulation& s, const Path& directory) 
   for (const gas::Edge& edge : s.gas.edges) curves.push_back(curve(edge.name + "_energy", "through " + edge.name, colour++));
   curves.push_back(curve("gas_residual_energy", "in no book", 7));
   draw({c.title, {against_time("Energy of the gas", time, std::move(curves), unit)}, 1, 900, 380}, directory / "energy.png");
+}
+
+/// A panel for each field that gauges have recorded, as many of them as there are colours.
+void draw_gauges(const Case& c, const Path& directory) {
+  const std::vector<GaugeSeries> all = read_gauges(c, directory);
+  std::vector<std::string> fields;
+  double end = 0.0;
+  for (const GaugeSeries& s : all) {
+    if (std::find(fields.begin(), fields.end(), s.field) == fields.end()) fields.push_back(s.field);
+    end = std::max(end, largest(s.time));
+  }
+  const Scale times = scale_for("s", end);
+  Figure figure{c.title + ": gauges", {}, 1, 900, 280};
+  for (const std::string& field : fields) {
+    std::vector<const GaugeSeries*> shown;
+    double most = 0.0;
+    for (const GaugeSeries& s : all)
+      if (s.field == field) shown.push_back(&s), most = std::max(most, largest(s.value));
+    const Scale scale = scale_for(shown.front()->unit, most);
+    Panel panel;
+    panel.x_label = label("time", times), panel.y_label = label(in_words(field), scale);
+    if (const std::size_t count = shown.size(); count > palette_size) {
+      panel.title = fmt::format("{} of {}", palette_size, count);
+      std::vector<const GaugeSeries*> evenly;
+      for (std::size_t k = 0; k < palette_size; ++k) evenly.push_back(shown[k * (count - 1) / (palette_size - 1)]);
+      shown = std::move(evenly);
+    }
+    legend_beside(panel);
+    int colour = 0;
+    for (const GaugeSeries* s : shown)
+      panel.curves.push_back(
+          {in_words(s->label), scaled(s->time, times.per_si), scaled(s->value, scale.per_si), Mark::line, colour++});
+    level(panel);
+    figure.panels.push_back(std::move(panel));
+  }
+  draw(figure, directory / "gauges.png");
 }
 
 /// Half a particle in units of gnuplot's point size, on a panel so many pixels wide that shows so many metres.
@@ -270,6 +318,7 @@ void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, c
     panel.curves.back().size = 0.3;
     if (f < reference.values.size() && !reference.values[f].empty())
       panel.curves.push_back(curve("reference", reference, Mark::dashed, 1));
+    level(panel);
     figure.panels.push_back(std::move(panel));
   }
   draw(figure, directory / fmt::format("line_{}.png", config.name));
@@ -341,6 +390,7 @@ std::vector<std::string> draw_figures(const Case& c, const Simulation& s, const 
     }
   };
   attempt([&] { s.gas.empty() ? draw_energy(c, directory) : draw_gas_energy(c, s, directory); });
+  if (!c.gauges.empty()) attempt([&] { draw_gauges(c, directory); });
   if (s.dimensions() > 1) attempt([&] { draw_field(c, s, directory); });
   std::vector<std::size_t> drawn;
   for (const MeasureConfig& measure : c.measures) {

@@ -18,15 +18,15 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_output_of_a_run(const std::string& name) {
-  constexpr std::array whole = {"case.toml",       "log.txt",         "history.csv", "summary.json",
-                                "checkpoint_a.h5", "checkpoint_b.h5", "energy.png",  "field.png"};
+  constexpr std::array whole = {"case.toml",       "log.txt",    "history.csv", "summary.json", "checkpoint_a.h5",
+                                "checkpoint_b.h5", "energy.png", "field.png",   "gauges.png"};
   if (std::find(whole.begin(), whole.end(), name) != whole.end()) return true;
   return name.ends_with(".part") || name.ends_with("_particles.hdf.series") ||
          (name.ends_with(".hdf") && name.find("_particles_") != std::string::npos) || name == solid_grid + ".pvd" ||
          (name.starts_with(solid_grid + "_") && name.ends_with(".vti")) || name == gas_grid + ".pvd" ||
          (name.starts_with(gas_grid + "_") && name.ends_with(".vti")) ||
          ((name.starts_with("profile_") || name.starts_with("line_")) && name.ends_with(".png")) ||
-         (name.starts_with("measured_profile_") && name.ends_with(".csv"));
+         ((name.starts_with("measured_profile_") || name.starts_with("gas_profile_")) && name.ends_with(".csv"));
 }
 
 std::string text_of(const fs::path& path) {
@@ -54,11 +54,15 @@ void prepare_directory(const fs::path& directory, const Case& c, bool overwrite)
   // What the case reads comes along, so that the directory can be moved and the run resumed.
   Case own = c;
   Files profiles;
-  for (MeasureConfig& measure : own.measures) {
-    if (measure.profile.empty()) continue;
-    profiles.emplace_back(fmt::format("measured_profile_{}.csv", profiles.size()), text_of(measure.profile));
-    measure.profile = profiles.back().first;
-  }
+  const auto take_along = [&](fs::path& profile, const std::string& stem) {
+    profiles.emplace_back(fmt::format("{}_{}.csv", stem, profiles.size()), text_of(profile));
+    profile = profiles.back().first;
+  };
+  for (MeasureConfig& measure : own.measures)
+    if (!measure.profile.empty()) take_along(measure.profile, "measured_profile");
+  if (own.gas)
+    for (FillConfig& fill : own.gas->fills)
+      if (fill.profile) take_along(fill.profile->file, "gas_profile");
   const std::string text = write_case(own);
   if (fs::exists(directory) && !fs::is_directory(directory))
     throw std::invalid_argument(fmt::format("{}: is a file; a run needs a directory", directory.string()));

@@ -10,7 +10,7 @@
 
 namespace brisance::simulator {
 
-/// Makes the directory of a new run and writes case.toml, with the measured profiles that it names beside it. Throws
+/// Makes the directory of a new run and writes case.toml, with the profiles that it names beside it. Throws
 /// std::invalid_argument if it holds something else than an earlier run of the same case, unless that may be overwritten; what
 /// does not look like the output of a run is never removed.
 void prepare_directory(const std::filesystem::path& directory, const Case& c, bool overwrite);

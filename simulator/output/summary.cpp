@@ -38,12 +38,14 @@ std::string gas_in_words(const Books& all) {
 }  // namespace
 
 void write_summary(const Summary& s, const std::filesystem::path& path) {
-  Json measures = Json::object(), comparison = Json::object(), energy = Json::object(), units = Json::object(),
-       versions = Json::object();
+  Json gauges = Json::object(), measures = Json::object(), comparison = Json::object(), energy = Json::object(),
+       units = Json::object(), versions = Json::object();
   for (const MeasuredValue& m : s.measures) {
     measures.set(m.name, m.value);
     if (m.measured) comparison.set(m.name, Json::object().set("measured", *m.measured).set("deviation", *m.deviation()));
   }
+  for (const GaugePeak& p : s.peaks)
+    gauges.set(p.name, Json::object().set("peak", p.value).set("unit", p.unit).set("time", p.time));
   for (const BookEntry& entry : entries_of(s.books)) energy.set(entry.name, entry.value);
   if (!s.books.gas)
     energy.set("initial_internal_energy", s.books.initial_internal).set("peak_kinetic_energy", s.books.peak_kinetic);
@@ -61,6 +63,7 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
   all.set(points + "s", s.particles)
       .set("measures", measures)
       .set("comparison", comparison)
+      .set("gauges", gauges)
       .set("energy", energy)
       .set("units", units);
   if (s.books.gas) all.set("first_order_cell_steps", s.books.gas->plain).set("flattened_slopes", s.books.gas->flattened);

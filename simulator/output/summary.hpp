@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/output/gauge_history.hpp"
 #include "simulator/output/history.hpp"
 #include "simulator/output/measures.hpp"
 
@@ -19,6 +20,7 @@ struct Summary {
   int threads = 1;
   Books books;
   std::vector<MeasuredValue> measures;
+  std::vector<GaugePeak> peaks{};  // of the gauges
 };
 
 void write_summary(const Summary& summary, const std::filesystem::path& path);

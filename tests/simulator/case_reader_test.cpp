@@ -28,6 +28,9 @@ const fs::path& folder() {
     std::ofstream(made / "profile.csv") << "radius [mm],height [mm]\n5.5,0\n3.81,22.5\n";
     std::ofstream(made / "reference.csv") << "y [mm],pressure [GPa]\n0,1\n10,0\n";
     std::ofstream(made / "bad_profile.csv") << "radius [mm],z [mm]\n5.5,0\n";
+    std::ofstream(made / "swirl.csv") << "radius [mm],pressure [bar],velocity_around [m/s]\n0,1,0\n2,2,10\n2,3,0\n";
+    std::ofstream(made / "falling.csv") << "radius [mm],density [kg/m^3]\n2,1\n0,1\n";
+    std::ofstream(made / "empty.csv") << "radius [mm],density [kg/m^3]\n0,0\n";
     return made;
   }();
   return path;
@@ -270,6 +273,16 @@ shape = { sphere = { centre = ["5 mm", "5 mm"], radius = "2 mm" } }
 density = "1000 kg/m^3"
 pressure = "5 GPa"
 velocity = ["100 m/s", 0]
+[[gas.fill]]
+fluid = "air"
+shape = { sphere = { centre = ["15 mm", "5 mm"], radius = "2 mm" } }
+density = "2 kg/m^3"
+profile = { file = "swirl.csv", along = "radius", centre = ["15 mm", "5 mm"] }
+[[gas.fill]]
+fluid = "air"
+shape = { box = { lower = [0, 0], upper = ["2 mm", "2 mm"] } }
+density = 1
+energy = "2 kJ"
 [[gas.edge]]
 side = "high_x"
 kind = "non_reflecting"
@@ -290,6 +303,10 @@ TEST(CaseReader, ReadsTheGas) {
   EXPECT_EQ(c.gas->fluids.at(1).name, "products");
   EXPECT_EQ(c.gas->fills.at(0).pressure, 101325.0);
   EXPECT_EQ(c.gas->fills.at(1).velocity, (Vector{100, 0, 0}));
+  EXPECT_EQ(c.gas->fills.at(2).profile->file, folder() / "swirl.csv");
+  EXPECT_EQ(c.gas->fills.at(2).profile->along, ProfileAlong::radius);
+  EXPECT_EQ(c.gas->fills.at(2).profile->centre, (Vector{0.015, 0.005, 0}));
+  EXPECT_EQ(c.gas->fills.at(3).energy, 2000.0);
   EXPECT_EQ(c.gas->edges.at(0).kind, EdgeKind::non_reflecting);
   EXPECT_EQ(c.gauges.at(0).moves, false);
 }
@@ -316,6 +333,21 @@ INSTANTIATE_TEST_SUITE_P(
                    "gas.fill.0: there are a density and a temperature; give one of the two"},
         HostileGas{"temperature = \"300 K\"\n", "", "gas.fill.0: neither density nor temperature is given"},
         HostileGas{"pressure = \"1 atm\"\n", "", "gas.fill.0.pressure: missing"},
+        HostileGas{"density = \"2 kg/m^3\"\n", "", "gas.fill.2: neither density nor temperature is given"},
+        HostileGas{"density = \"2 kg/m^3\"\n", "density = 2\npressure = 1\n",
+                   "gas.fill.2.pressure: it follows from the profile; give one of the two"},
+        HostileGas{"file = \"swirl.csv\", along = \"radius\", centre = [\"15 mm\", \"5 mm\"]",
+                   "file = \"swirl.csv\", along = \"x\"", "swirl.csv:1:1: there is no column \"x\""},
+        HostileGas{"\"swirl.csv\"", "\"bad_profile.csv\"",
+                   "bad_profile.csv: the column \"z\" says nothing of a gas; there may be radius, density, pressure"},
+        HostileGas{"\"swirl.csv\"", "\"falling.csv\"", "falling.csv: radius must rise from row to row"},
+        HostileGas{"\"swirl.csv\"", "\"empty.csv\"", "empty.csv: a density is not above 0"},
+        HostileGas{"\"swirl.csv\"", "\"nowhere.csv\"", "nowhere.csv"},
+        HostileGas{"shape = { box = { lower = [0, 0], upper = [\"2 mm\", \"2 mm\"] } }\n", "",
+                   "gas.fill.3.shape: missing: the region that the energy is put into"},
+        HostileGas{"energy = \"2 kJ\"", "energy = \"2 kJ\"\npressure = 1",
+                   "gas.fill.3.pressure: it follows from the energy; give one of the two"},
+        HostileGas{"density = 1\n", "temperature = \"300 K\"\n", "gas.fill.3.density: missing: an energy needs it"},
         HostileGas{"side = \"high_x\"", "side = \"high_z\"", "in 2 dimensions there is no such side"},
         HostileGas{"kind = \"non_reflecting\"", "kind = \"periodic\"", "a state would be ignored"},
         HostileGas{"upper = [\"20 mm\", \"10 mm\"]", "upper = [\"20.5 mm\", \"10 mm\"]", "is on no plane of nodes"},

@@ -57,10 +57,33 @@ TEST(GasRun, IsCheckedBeforeAndDrawnAfter) {
   for (const char* nonsense : {"inf", "nan", "warning", "0.0 MB"}) EXPECT_FALSE(contains(check.out, nonsense)) << check.out;
   const Answer ran = call({"run", file, "-o", directory.string(), "--set", "cell_size=0.05"});
   EXPECT_EQ(ran.code, 0) << ran.err;
-  for (const char* picture : {"energy.png", "field.png", "line_along_x.png", "line_along_the_diagonal.png"})
+  for (const char* picture : {"energy.png", "gauges.png", "field.png", "line_along_x.png", "line_along_the_diagonal.png"})
     EXPECT_TRUE(fs::exists(directory / picture)) << picture;
   EXPECT_FALSE(contains(text_of(directory / "log.txt"), "missing")) << text_of(directory / "log.txt");
+  EXPECT_TRUE(contains(text_of(directory / "summary.json"), "\"near_pressure\": {"));
   EXPECT_EQ(call({"report", directory.string()}).code, 0);
+}
+
+/// The profile comes along with the run: nothing of where the case was is needed to go on.
+TEST(GasRun, FindsItsProfileWhereverItsDirectoryIs) {
+  const fs::path directory = scratch(), elsewhere = directory / "elsewhere";
+  fs::create_directories(elsewhere);
+  for (const char* name : {"entropy_wave.toml", "entropy_wave.csv"})
+    fs::copy_file(fs::path(BRISANCE_SOURCE_DIR) / "data/cases" / name, elsewhere / name);
+  const auto call = [](const std::vector<std::string>& words) {
+    std::vector<std::string> all = {"brisance"};
+    all.insert(all.end(), words.begin(), words.end());
+    return call_program(run_command_line, all);
+  };
+  // The reference of the figure is the same file, and stays where it is.
+  const Answer ran =
+      call({"run", (elsewhere / "entropy_wave.toml").string(), "-o", (directory / "run").string(), "--set", "cell_size=0.1",
+            "--set", "figure.0.reference=" + (shipped("entropy_wave").parent_path() / "entropy_wave.csv").string()});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  fs::remove_all(elsewhere);
+  fs::rename(directory / "run", directory / "moved");
+  const Answer report = call({"report", (directory / "moved").string()});
+  EXPECT_EQ(report.code, 0) << report.out << report.err;
 }
 
 }  // namespace

@@ -1,0 +1,303 @@
+// Writes the CSV files of the gas cases in data/cases: exact solutions, fine grids of the comparison solver where there is
+// none, and the states from which they begin.
+//   gas_references DIR
+// Nothing in them comes from the solver that they are held against.
+
+#include <fmt/format.h>
+#include <fmt/os.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "models/equation_of_state/thermodynamics.hpp"
+#include "simulator/gas/muscl_hllc.hpp"
+#include "tests/simulator/gas/exact_riemann.hpp"
+#include "tests/simulator/gas/exact_solutions.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+namespace eos = equation_of_state;
+
+struct Table {
+  std::string comment, header;
+  std::vector<std::vector<double>> rows = {};
+};
+using Tables = std::map<std::string, Table>;  // by the names of their files
+
+void write(const std::filesystem::path& path, const Table& table) {
+  auto out = fmt::output_file(path.string());
+  out.print("# {}\n{}\n", table.comment, table.header);
+  for (const std::vector<double>& row : table.rows) {
+    std::string text;
+    for (const double x : row) text += fmt::format("{}{:.9g}", text.empty() ? "" : ",", x == 0.0 ? 0.0 : x);
+    out.print("{}\n", text);
+  }
+}
+
+constexpr const char* along_x = "x [m],density [kg/m^3],pressure [Pa],velocity [m/s]";
+constexpr const char* along_any_ray = "x [m],distance [m],density [kg/m^3],pressure [Pa],velocity [m/s]";
+std::vector<double> row(double x, const GasState& w) {
+  return {x, w.density, w.pressure, w.velocity};
+}
+std::vector<double> ray_row(double r, const GasState& w) {
+  return {r, r, w.density, w.pressure, w.velocity};
+}
+
+// Riemann problems: between their waves the states are uniform, or a fan ----------------------------------------------------
+
+Table riemann(const std::string& problem, const ExactRiemann& exact, double diaphragm, double time, double upper) {
+  Table table{fmt::format("Exact solution of the Riemann problem {} at t = {:g} s", problem, time), along_x};
+  std::vector<double> places = {0.0, upper};
+  for (const double speed :
+       {exact.left_head(), exact.left_tail(), exact.star_velocity(), exact.right_tail(), exact.right_head()})
+    places.push_back(std::clamp(diaphragm + speed * time, 0.0, upper));
+  std::sort(places.begin(), places.end());
+  const auto at = [&](double x) { return exact.at((x - diaphragm) / time); };
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const double from = places[i], width = places[i + 1] - from;
+    if (width < 1e-12) continue;
+    const bool uniform = at(from + 0.3 * width).pressure == at(from + 0.7 * width).pressure;
+    const int parts = uniform ? 1 : 100;
+    for (int k = 0; k <= parts; ++k)  // on a wave the state is that of its inner side
+      table.rows.push_back(row(from + width * k / parts, at(from + width * std::clamp(1.0 * k / parts, 1e-9, 1.0 - 1e-9))));
+  }
+  return table;
+}
+
+void add_riemann_problems(Tables& all) {
+  const auto add = [&](const std::string& name, const Table& table) { all[name] = table; };
+  const std::string toro = "{} of Toro, Riemann Solvers and Numerical Methods for Fluid Dynamics, 3rd ed. (2009), table 4.1,";
+  add("sod", riemann("of Sod, J. Comput. Phys. 27 (1978) 1,", {{1.0, 0.0, 1.0}, {0.125, 0.0, 0.1}}, 0.5, 0.2, 1.0));
+  add("near_vacuum_tube", riemann(fmt::format(fmt::runtime(toro), 2), {{1.0, -2.0, 0.4}, {1.0, 2.0, 0.4}}, 0.5, 0.15, 1.0));
+  add("strong_shock_tube",
+      riemann(fmt::format(fmt::runtime(toro), 3), {{1.0, 0.0, 1000.0}, {1.0, 0.0, 0.01}}, 0.5, 0.012, 1.0));
+  add("dense_driver_tube",
+      riemann("of a pressure ratio of 1e5 and a density ratio of 10", {{10.0, 0.0, 1e5}, {1.0, 0.0, 1.0}}, 0.3, 0.0024, 1.0));
+  add("moving_contact", riemann("of a contact that moves", {{1.0, 1.0, 1.0}, {10.0, 1.0, 1.0}}, 0.2, 0.5, 1.0));
+  const StiffenedGas air{1.4}, water{4.4, 6e8};
+  add("water_air_shock_tube", riemann("of water at 1 GPa and air at 0.1 MPa, two stiffened gases,",
+                                      {{1000.0, 0.0, 1e9}, water, {50.0, 0.0, 1e5}, air}, 0.7, 2.4e-4, 1.0));
+  add("dense_gas_into_air", riemann("of gas of 400 kg/m^3 at 600 MPa and air, both ideal,",
+                                    {{400.0, 0.0, 6e8}, air, {1.2, 0.0, 1e5}, air}, 0.7, 1.6e-4, 1.3));
+}
+
+// Implosions and explosions --------------------------------------------------------------------------------------------------
+
+void add_noh(Tables& all, const std::string& name, int dimension) {
+  constexpr double time = 0.6, upper = 0.5;
+  const Noh noh{5.0 / 3.0, dimension};
+  Table table{fmt::format("Exact solution of Noh, J. Comput. Phys. 72 (1987) 78, in {} dimensions, gamma 5/3, t = {:g} s",
+                          dimension, time),
+              along_any_ray};
+  const double shock = noh.shock_radius(time);
+  for (const double r : {0.0, shock}) table.rows.push_back(ray_row(r, noh.at(0.5 * shock, time)));
+  constexpr int parts = 100;
+  for (int k = 0; k <= parts; ++k) {
+    const double r = shock + (upper - shock) * k / parts;
+    table.rows.push_back(ray_row(r, noh.at(r, time)));
+  }
+  all[name] = table;
+}
+
+void add_sedov(Tables& all) {
+  constexpr double energy = 0.851072, ahead = 1e-6, upper = 1.2;
+  const Sedov sedov(1.4, 3, energy);
+  Table table{
+      fmt::format("Exact solution of Sedov (1959) for a sphere of energy {:g} J in 1 kg/m^3, gamma 1.4, t = 1 s", energy),
+      along_any_ray};
+  const double shock = sedov.shock_radius(1.0);
+  constexpr int parts = 300;  // closer to each other towards the shock
+  for (int k = 0; k <= parts; ++k) {
+    const double left = 1.0 - static_cast<double>(k) / parts, r = shock * (1.0 - left * left);
+    table.rows.push_back(ray_row(r, sedov.at(std::clamp(r, 1e-6, shock * (1.0 - 1e-12)), 1.0)));
+  }
+  for (const double r : {shock, upper}) table.rows.push_back(ray_row(r, {1.0, 0.0, ahead}));
+  all["sedov"] = table;
+}
+
+// Fine grids of the comparison solver
+// ------------------------------------------------------------------------------------------
+
+constexpr int fine_grid = 6400, cells_per_row = 4;
+
+void add_fine_grid(Tables& all, const std::string& name, const std::string& problem, Euler1D& gas, double time) {
+  advance_to(gas, time);
+  Table table{fmt::format("{} at t = {:g} s by the MUSCL-HLLC scheme (simulator/gas/muscl_hllc.hpp) in {} cells, means of {}",
+                          problem, time, fine_grid, cells_per_row),
+              along_x};
+  for (int i = 0; i < fine_grid; i += cells_per_row) {
+    GasState mean{};
+    for (int k = i; k < i + cells_per_row; ++k) {
+      const GasState& w = gas.cells[static_cast<std::size_t>(k)];
+      mean.density += w.density / cells_per_row, mean.velocity += w.velocity / cells_per_row,
+          mean.pressure += w.pressure / cells_per_row;
+    }
+    table.rows.push_back(row(0.5 * (gas.face(i) + gas.face(i + cells_per_row)), mean));
+  }
+  all[name] = table;
+}
+
+void add_shu_osher(Tables& all) {
+  Table start{"State from which the problem of Shu & Osher, J. Comput. Phys. 83 (1989) 32, begins",
+              "x [m],density [kg/m^3],pressure [Pa],velocity_along [m/s]"};
+  for (const double x : {-5.0, -4.0}) start.rows.push_back(row(x, shu_osher_start(-5.0)));
+  constexpr int parts = 1800;
+  for (int k = 0; k <= parts; ++k) {
+    const double x = -4.0 + 9.0 * k / parts;
+    start.rows.push_back(row(x, shu_osher_start(x)));
+  }
+  all["shu_osher_start"] = start;
+  Euler1D gas;
+  gas.lower = -5.0, gas.upper = 5.0, gas.at_lower = gas.at_upper = {EndKind::transmissive};
+  gas.cells.resize(fine_grid);
+  for (int i = 0; i < fine_grid; ++i)
+    gas.cells[static_cast<std::size_t>(i)] = cell_average(shu_osher_start, gas.face(i), gas.face(i + 1));
+  add_fine_grid(all, "shu_osher", "Problem of Shu & Osher, J. Comput. Phys. 83 (1989) 32,", gas, 1.8);
+}
+
+void add_cylindrical_explosion(Tables& all) {
+  Euler1D gas;
+  gas.dimension = 2, gas.at_upper = {EndKind::transmissive};
+  gas.cells.resize(fine_grid);
+  for (int i = 0; i < fine_grid; ++i)
+    gas.cells[static_cast<std::size_t>(i)] = gas.centre(i) < 0.4 ? GasState{1.0, 0.0, 1.0} : GasState{0.125, 0.0, 0.1};
+  add_fine_grid(all, "cylindrical_explosion", "Radial solution of the cylindrical explosion of Toro (2009), section 17.1,", gas,
+                0.25);
+  Table& table = all["cylindrical_explosion"];
+  table.header = along_any_ray;
+  for (std::vector<double>& w : table.rows) w.insert(w.begin(), w.front());
+}
+
+void add_woodward_colella(Tables& all) {
+  Euler1D gas;
+  gas.cells.resize(fine_grid);
+  for (int i = 0; i < fine_grid; ++i) gas.cells[static_cast<std::size_t>(i)] = woodward_colella_start(gas.centre(i));
+  add_fine_grid(all, "woodward_colella", "Two blast waves of Woodward & Colella, J. Comput. Phys. 54 (1984) 115,", gas, 0.038);
+}
+
+// Smooth flows
+// -----------------------------------------------------------------------------------------------------------------
+
+void add_entropy_wave(Tables& all) {
+  Table table{"Wave of entropy: where it begins and, after a period, ends", "x [m],density [kg/m^3]"};
+  constexpr int parts = 1000;
+  for (int k = 0; k <= parts; ++k)
+    table.rows.push_back({1.0 * k / parts, EntropyWave{}.at(static_cast<double>(k) / parts, 0.0).density});
+  all["entropy_wave"] = table;
+}
+
+constexpr const char* vortex_start = "radius [m],density [kg/m^3],pressure [Pa],velocity_around [m/s]";
+
+/// A vortex about the origin as a profile, and what it is along a line beside its centre.
+template <class At>
+void add_vortex(Tables& all, const std::string& name, const std::string& words, const At& at, double reach, double beside,
+                double upper) {
+  Table start{words + ": along the radius", vortex_start};
+  constexpr int parts = 800;
+  for (int k = 0; k <= parts; ++k) {
+    const double r = reach * k / parts;
+    const PlaneGasState w = at(r, 0.0), still = at(10.0 * reach, 0.0);
+    start.rows.push_back({r, w.density, w.pressure, w.velocity_y - still.velocity_y});
+  }
+  all[name + "_start"] = start;
+  Table line{fmt::format("{}: along y = {:g} m", words, beside), along_x};
+  for (int k = 0; k <= parts; ++k) {
+    const double x = upper * (2.0 * k / parts - 1.0);
+    const PlaneGasState w = at(x, beside);
+    line.rows.push_back({x, w.density, w.pressure, w.velocity_x});
+  }
+  all[name] = line;
+}
+
+void add_vortices(Tables& all) {
+  IsentropicVortex vortex;
+  vortex.period = 1e3;  // of its images nothing is left here
+  add_vortex(
+      all, "isentropic_vortex", "Isentropic vortex of Shu, ICASE Report 97-65 (1998)",
+      [&](double x, double y) { return vortex.at(x, y, 0.0); }, 7.2, 0.9765625, 5.0);
+  for (const auto& [name, mach] : {std::pair{"gresho_vortex_mach_01", 0.1}, {"gresho_vortex_mach_001", 0.01}}) {
+    const GreshoVortex gresho{1.4, mach};
+    add_vortex(
+        all, name, fmt::format("Vortex of Gresho & Chan, Int. J. Numer. Methods Fluids 11 (1990) 587, Mach {:g}", mach),
+        [&](double x, double y) { return gresho.at(x, y); }, 0.5, 0.1015625, 0.5);
+  }
+}
+
+void add_hydrostatic_column(Tables& all) {
+  constexpr double gas_constant = 0.4 * 718.0, temperature = 250.0, gravity = 9.81, lowest = 1e5, height = 5000.0;
+  Table table{"Isothermal column of air at 250 K: p = 0.1 MPa exp(-g x/(R T))", "x [m],density [kg/m^3],pressure [Pa]"};
+  constexpr int parts = 1000;
+  for (int k = 0; k <= parts; ++k) {
+    const double x = height * k / parts, p = lowest * std::exp(-gravity * x / (gas_constant * temperature));
+    table.rows.push_back({x, p / (gas_constant * temperature), p});
+  }
+  all["hydrostatic_column"] = table;
+}
+
+// Fluids ----------------------------------------------------------------------------------------------------------------------
+
+void add_water_slab(Tables& all) {
+  Table table{"A slab of water, 0.3 m to 0.6 m, after 3 ms at 100 m/s in air of the same velocity and pressure",
+              "x [m],density [kg/m^3],pressure [Pa],velocity [m/s],fraction_water"};
+  for (const auto& [x, density, fraction] :
+       {std::tuple{0.0, 1.2, 0.0}, {0.6, 1.2, 0.0}, {0.6, 1000.0, 1.0}, {0.9, 1000.0, 1.0}, {0.9, 1.2, 0.0}, {1.0, 1.2, 0.0}})
+    table.rows.push_back({x, density, 1e5, 100.0, fraction});
+  all["water_slab"] = table;
+}
+
+/// Material that runs against a wall comes to rest behind a shock; the jumps of mass, momentum and energy give its state.
+void add_impact(Tables& all, const std::string& name, const EquationOfState& law, double density, double pressure, double speed,
+                double time) {
+  const double energy = eos::energy_at_pressure(law, density, pressure);
+  const auto shocked_pressure = [&](double rho) { return pressure + density * speed * speed * rho / (rho - density); };
+  const auto excess = [&](double rho) {
+    const double p = shocked_pressure(rho), e = energy + 0.5 * (p + pressure) * (1.0 / density - 1.0 / rho);
+    return eos::pressure(law, rho, e) - p;
+  };
+  double low = density * (1.0 + 1e-6), high = 2.5 * density;
+  for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high))
+    (excess(middle) > 0.0 ? high : low) = middle;
+  const double shock = speed * density / (low - density) * time;
+  Table table{
+      fmt::format("Shock by the jumps of mass, momentum and energy: material that ran against the wall at x = 0 with {:g} "
+                  "m/s, after {:g} s",
+                  speed, time),
+      along_x};
+  for (const double x : {0.0, shock}) table.rows.push_back({x, low, shocked_pressure(low), 0.0});
+  for (const double x : {shock, 1.0}) table.rows.push_back({x, density, pressure, -speed});
+  all[name] = table;
+}
+
+void add_impacts(Tables& all) {
+  const eos::Murnaghan water{1000.0, 2.18e9, 7.15, 1e5, 4180.0, 298.0};
+  add_impact(all, "murnaghan_impact", water, 1000.0, 1e5, 500.0, 3e-4);
+  const eos::Tillotson aluminium{2700.0, 0.5, 1.63, 75.2e9, 65e9, 5e6, 3e6, 13.9e6, 5.0, 5.0, 896.0, 298.0};
+  add_impact(all, "tillotson_impact", aluminium, 2700.0, 0.0, 2000.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace brisance::simulator::gas
+
+int main(int argc, char** argv) {
+  using namespace brisance::simulator::gas;
+  CLI::App app{"Writes the reference CSV files of the gas cases."};
+  std::filesystem::path directory;
+  app.add_option("DIR", directory, "where to")->required();
+  CLI11_PARSE(app, argc, argv);
+  Tables all;
+  add_riemann_problems(all);
+  add_noh(all, "noh_cylindrical", 2), add_noh(all, "noh_spherical", 3);
+  add_sedov(all);
+  add_shu_osher(all), add_woodward_colella(all), add_cylindrical_explosion(all);
+  add_entropy_wave(all), add_vortices(all), add_hydrostatic_column(all);
+  add_water_slab(all), add_impacts(all);
+  for (const auto& [name, table] : all) write(directory / (name + ".csv"), table);
+}

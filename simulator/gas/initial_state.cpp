@@ -1,0 +1,227 @@
+#include "simulator/gas/initial_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "models/equation_of_state/thermodynamics.hpp"
+#include "models/input/csv.hpp"
+#include "models/input/diagnostics.hpp"
+#include "simulator/solid/shapes.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+int number_of(const GasConfig& config, const std::string& fluid) {
+  int number = 0;
+  while (config.fluids[static_cast<std::size_t>(number)].name != fluid) ++number;
+  return number;
+}
+
+/// Volume of the part of a cell between two values of x, over what a part of a straight cell has.
+double widened(Geometry geometry, double low, double high) {
+  const double middle = 0.5 * (low + high);
+  if (!is_round(geometry)) return 1.0;
+  return geometry == Geometry::spherical_1d ? middle * middle + (high - low) * (high - low) / 12.0 : middle;
+}
+
+}  // namespace
+
+Filling filling_of(const GasConfig& config, const std::vector<Fluid>& fluids, const GasStateConfig& state) {
+  Filling filling;
+  filling.fluid = number_of(config, state.fluid);
+  filling.pressure = state.pressure.value_or(0.0), filling.velocity = state.velocity;
+  if (state.density) filling.density = *state.density;
+  if (state.temperature)
+    filling.density = equation_of_state::density_at(fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state,
+                                                    filling.pressure, *state.temperature);
+  return filling;
+}
+
+StateProfile read_state_profile(const ProfileConfig& config) {
+  const CsvFile csv = CsvFile::load(config.file);
+  StateProfile profile;
+  const std::string_view along = choices<ProfileAlong>[static_cast<std::size_t>(config.along)];
+  profile.place = csv.numbers(along, Unit::m);
+  const auto fail = [&](const std::string& what) { throw InputError({{csv.path().string(), 0, 0, "", what}}); };
+  struct Column {
+    std::string_view name;
+    std::vector<double>& values;
+    Unit unit;
+  };
+  const Column columns[] = {{"density", profile.density, Unit::kg_per_m3},
+                            {"pressure", profile.pressure, Unit::Pa},
+                            {"velocity_along", profile.velocity_along, Unit::m_per_s},
+                            {"velocity_around", profile.velocity_around, Unit::m_per_s}};
+  std::vector<std::string_view> known = {along};
+  bool any = false;
+  for (const Column& column : columns) {
+    known.push_back(column.name);
+    if (csv.has(column.name)) column.values = csv.numbers(column.name, column.unit), any = true;
+  }
+  for (const std::string& name : csv.column_names())
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      fail(fmt::format("the column \"{}\" says nothing of a gas; there may be {}", name, listed(known)));
+  if (!any) fail("it holds no state; one column at least of " + listed(std::span(known).subspan(1)) + " is required");
+  if (profile.place.empty()) fail("it has no rows; one is required");
+  if (!std::is_sorted(profile.place.begin(), profile.place.end()))
+    fail(fmt::format("{} must rise from row to row; two rows of one place make a jump", along));
+  if (std::any_of(profile.density.begin(), profile.density.end(), [](double rho) { return !(rho > 0.0); }))
+    fail("a density is not above 0");
+  return profile;
+}
+
+double interpolate(const std::vector<double>& place, const std::vector<double>& column, double x) {
+  const auto above = static_cast<std::size_t>(std::upper_bound(place.begin(), place.end(), x) - place.begin());
+  if (above == 0) return column.front();
+  if (above == place.size()) return column.back();
+  return std::lerp(column[above - 1], column[above], (x - place[above - 1]) / (place[above] - place[above - 1]));
+}
+
+InitialState::InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells) : cells_(&cells) {
+  for (const FillConfig& fill : config.fills) {
+    Fill made{&fill, filling_of(config, fluids, fill), {}, {-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
+    made.law = &fluids[static_cast<std::size_t>(made.filling.fluid)].equation_of_state;
+    if (fill.profile) made.profile = read_state_profile(*fill.profile);
+    if (fill.shape) {
+      const Bounds box = bounds(*fill.shape);
+      made.lower = box.lower, made.upper = box.upper;
+    }
+    fills_.push_back(std::move(made));
+  }
+  for (std::size_t f = 0; f < fills_.size(); ++f) {
+    Fill& fill = fills_[f];
+    if (!fill.config->energy) continue;
+    const double volume = whole_of(cells.geometry) * volume_of(f), density = fill.filling.density;
+    if (!(volume > 0.0))
+      throw std::runtime_error(fmt::format("gas.fill.{}: its energy goes nowhere; its shape must hold a part of the box", f));
+    fill.filling.pressure = equation_of_state::pressure(*fill.law, density, *fill.config->energy / (volume * density));
+  }
+}
+
+Filling InitialState::Fill::at(const Vector& x, int dimensions) const {
+  const auto& p = config->profile;
+  if (!p) return filling;
+  Filling result = filling;
+  Vector direction{};
+  double place = 0.0;
+  if (p->along == ProfileAlong::radius) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dimensions); ++a) direction[a] = x[a] - p->centre[a];
+    place = std::sqrt(dot(direction, direction));
+    direction = place > 0.0 ? (1.0 / place) * direction : Vector{};
+  } else {
+    direction[static_cast<std::size_t>(p->along)] = 1.0;
+    place = x[static_cast<std::size_t>(p->along)];
+  }
+  const auto value = [&](const std::vector<double>& column, double otherwise) {
+    return column.empty() ? otherwise : interpolate(profile.place, column, place);
+  };
+  result.pressure = value(profile.pressure, filling.pressure);
+  if (config->temperature) result.density = equation_of_state::density_at(*law, result.pressure, *config->temperature);
+  result.density = value(profile.density, result.density);
+  result.velocity = result.velocity + value(profile.velocity_along, 0.0) * direction +
+                    value(profile.velocity_around, 0.0) * Vector{-direction[1], direction[0], 0.0};
+  return result;
+}
+
+template <class F>
+int InitialState::visit(const Vector& middle, F&& f) const {
+  const Cells& cells = *cells_;
+  const int D = cells.dimensions;
+  // Of the fills that reach the cell, those below the last that is everywhere do not matter.
+  const double half = 0.5 * cells.cell_size;
+  const auto reaches = [&](const Fill& fill) {
+    for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a)
+      if (middle[a] + half < fill.lower[a] || middle[a] - half > fill.upper[a]) return false;
+    return true;
+  };
+  std::vector<int> candidates;
+  for (int n = static_cast<int>(fills_.size()) - 1; n >= 0; --n) {
+    if (!reaches(fills_[static_cast<std::size_t>(n)])) continue;
+    candidates.push_back(n);
+    if (!fills_[static_cast<std::size_t>(n)].config->shape) break;
+  }
+  const auto uniform = [&](int n) { return !fills_[static_cast<std::size_t>(n)].config->profile; };
+  if (candidates.size() == 1 && uniform(candidates[0])) return candidates[0];
+
+  struct Place {
+    int fill;
+    Vector x;
+    double volume;
+  };
+  const int n = places_per_direction(D);
+  const double width = cells.cell_size / n;
+  double straight = 1.0;
+  for (int a = 0; a < D; ++a) straight *= width;
+  std::vector<Place> places;
+  for (int k = 0; k < (D > 2 ? n : 1); ++k)
+    for (int j = 0; j < (D > 1 ? n : 1); ++j)
+      for (int i = 0; i < n; ++i) {
+        const std::array<int, 3> index{i, j, k};
+        Vector x{};
+        for (std::size_t a = 0; a < static_cast<std::size_t>(D); ++a) x[a] = middle[a] - half + (index[a] + 0.5) * width;
+        const auto here = std::find_if(candidates.begin(), candidates.end(), [&](int c) {
+          const ShapePointer& shape = fills_[static_cast<std::size_t>(c)].config->shape;
+          return !shape || contains(*shape, x);
+        });
+        places.push_back({*here, x, straight * widened(cells.geometry, x[0] - 0.5 * width, x[0] + 0.5 * width)});
+      }
+  const int first = places.front().fill;
+  const bool one = std::all_of(places.begin(), places.end(), [&](const Place& p) { return p.fill == first; });
+  if (one && uniform(first)) return first;
+  for (const Place& place : places) f(place.fill, place.x, place.volume);
+  return -1;
+}
+
+std::vector<Portion> InitialState::in_cell(const Vector& middle) const {
+  std::vector<Portion> portions;
+  std::vector<int> fills;  // that the portions are of
+  double volume = 0.0;
+  const int all = visit(middle, [&](int fill, const Vector& x, double part) {
+    volume += part;
+    const Fill& here = fills_[static_cast<std::size_t>(fill)];
+    const auto known = here.config->profile ? fills.end() : std::find(fills.begin(), fills.end(), fill);
+    if (known != fills.end()) {
+      portions[static_cast<std::size_t>(known - fills.begin())].part += part;
+    } else {
+      portions.push_back({part, here.at(x, cells_->dimensions)});
+      fills.push_back(fill);
+    }
+  });
+  if (all >= 0) return {{1.0, fills_[static_cast<std::size_t>(all)].filling}};
+  for (Portion& portion : portions) portion.part /= volume;
+  return portions;
+}
+
+double InitialState::volume_of(std::size_t fill) const {
+  const Cells& cells = *cells_;
+  const Fill& sought = fills_[fill];
+  std::array<int, 3> first{}, last{1, 1, 1};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(cells.dimensions); ++a) {
+    first[a] = std::max(cells.lower[a], static_cast<int>(std::floor(sought.lower[a] / cells.cell_size)) - 1);
+    last[a] = std::min(cells.upper[a], static_cast<int>(std::ceil(sought.upper[a] / cells.cell_size)) + 1);
+  }
+  double sum = 0.0;
+  for (int k = first[2]; k < last[2]; ++k)
+    for (int j = first[1]; j < last[1]; ++j)
+      for (int i = first[0]; i < last[0]; ++i) {
+        Vector middle{};
+        const std::array<int, 3> index{i, j, k};
+        for (std::size_t a = 0; a < static_cast<std::size_t>(cells.dimensions); ++a)
+          middle[a] = (index[a] + 0.5) * cells.cell_size;
+        double part = 0.0, whole = 0.0;
+        const int all = visit(middle, [&](int here, const Vector&, double volume) {
+          whole += volume;
+          if (here == static_cast<int>(fill)) part += volume;
+        });
+        const double volume = cells.metric.volume[static_cast<std::size_t>(i - cells.metric.first)];
+        sum += all >= 0 ? (all == static_cast<int>(fill) ? volume : 0.0) : volume * (part / whole);
+      }
+  return sum;
+}
+
+}  // namespace brisance::simulator::gas
