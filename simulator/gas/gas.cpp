@@ -6,12 +6,14 @@
 #include <stdexcept>
 
 #include "simulator/domain/message.hpp"
+#include "simulator/gas/classic.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/ghosts.hpp"
 #include "simulator/gas/implicit.hpp"
 #include "simulator/gas/lagrangian.hpp"
 #include "simulator/gas/passages.hpp"
 #include "simulator/gas/remap.hpp"
+#include "simulator/gas/transport.hpp"
 #include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
@@ -79,24 +81,36 @@ void fill(Gas& gas, const FillingFunction& filling, Domain& domain) {
       write_primitive(gas, block, c, f);
     }
   if (gas.implicit) open_implicit(gas, domain);
+  if (gas.classic) open_classic(gas, domain);
   begin(gas, domain);
   gas.initial = totals(gas, domain);
 }
 
 void begin(Gas& gas, Domain& domain) {
+  if (gas.classic) return show_classic(gas);
   timed(gas, Phase::equilibrium, [&] { find_equilibrium(gas); });
   gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
   timed(gas, Phase::ghosts, [&] { share_primitives(gas, gas.time, domain); });
+  timed(gas, Phase::half_step, [&] { prepare_transport(gas, domain); });
 }
 
 double largest_step(const Gas& gas, double courant) {
-  constexpr double most_swept = 0.5;  // of a cell, through one face
-  return std::min((gas.implicit ? gas.acoustic_courant : courant) / gas.wave_rate,
-                  most_swept / std::max(gas.motion_rate, 1e-300));
+  constexpr double most_swept = 0.5;     // of a cell, through one face
+  constexpr double most_diffused = 0.8;  // of what makes neighbours alike at once
+  constexpr double least = 1e-300;
+  return std::min({(gas.implicit ? gas.acoustic_courant : courant) / gas.wave_rate,
+                   most_swept / std::max(gas.motion_rate, least), most_diffused / std::max(gas.diffusion_rate, least)});
 }
 
 Outcome advance(Gas& gas, double dt, Domain& domain) {
   clear_step(gas.passages);
+  if (gas.classic) {
+    if (advance_classic(gas, dt) == Outcome::rejected) return Outcome::rejected;
+    book_step(gas.passages);
+    gas.time += dt, ++gas.step;
+    begin(gas, domain);
+    return Outcome::done;
+  }
   if (gas.implicit) {
     const bool solved = timed(gas, Phase::half_step, [&] { return solve_pressure(gas, dt, domain); });
     if (!solved) return Outcome::rejected;
@@ -106,6 +120,7 @@ Outcome advance(Gas& gas, double dt, Domain& domain) {
   timed(gas, Phase::ghosts, [&] { share_half_step(gas, dt, domain); });
   const bool good = timed(gas, Phase::lagrangian, [&] { return lagrangian_phase(gas, dt); });
   if (domain.maximum(good ? 0.0 : 1.0) > 0.0) return Outcome::rejected;
+  timed(gas, Phase::lagrangian, [&] { apply_transport(gas, dt); });
   // The order of the axes turns around with every step, so that none is always first.
   const int D = gas.dimensions();
   const std::int64_t flattened = gas.flattened;
@@ -185,7 +200,7 @@ std::vector<Totals> passed(const Gas& gas, Domain& domain) {
 
 std::size_t Gas::bytes() const {
   std::size_t sum = swept.capacity() * sizeof(Lanes) + face_laws.capacity() * sizeof(FaceLaw);
-  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step, &gradient, &unknown}) sum += set->bytes();
+  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step, &transport, &unknown}) sum += set->bytes();
   return sum;
 }
 
@@ -203,6 +218,12 @@ std::vector<double> numbers_of(const Gas& gas) {
       const double* first = reinterpret_cast<const double*>(set->at(static_cast<std::size_t>(b), 0));
       numbers.insert(numbers.end(), first, first + set->quantities() * set->packs() * 8);
     }
+  if (gas.classic) {
+    const ClassicState& s = *gas.classic;
+    for (const std::vector<double>* values : {&s.mass, &s.volume, &s.internal})
+      numbers.insert(numbers.end(), values->begin(), values->end());
+    for (const Vector& momentum : s.momentum) numbers.insert(numbers.end(), momentum.begin(), momentum.end());
+  }
   for (const Passage& p : gas.passages) {
     const auto keep = [&](const CompensatedSum& sum) {
       const double* first = reinterpret_cast<const double*>(&sum);
@@ -229,6 +250,13 @@ void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
       std::copy_n(next, count, reinterpret_cast<double*>(set->at(static_cast<std::size_t>(b), 0)));
       next += count;
     }
+  if (gas.classic) {
+    ClassicState& s = *gas.classic;
+    for (std::vector<double>* values : {&s.mass, &s.volume, &s.internal})
+      for (double& value : *values) value = *next++;
+    for (Vector& momentum : s.momentum)
+      for (double& component : momentum) component = *next++;
+  }
   for (Passage& p : gas.passages) {
     const auto take = [&](CompensatedSum& sum) {
       static_assert(std::is_trivially_copyable_v<CompensatedSum>);
@@ -240,6 +268,7 @@ void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
     take(p.energy);
   }
   share_primitives(gas, gas.time, domain);
+  prepare_transport(gas, domain);
 }
 
 }  // namespace brisance::simulator::gas
