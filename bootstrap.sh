@@ -73,10 +73,11 @@ case $action in
     ;;
   validate)
     install_packages
-    build -DBRISANCE_BUILD_TESTS=OFF gallery taylor
+    build -DBRISANCE_BUILD_TESTS=OFF gallery taylor ice_comparison
     case ${1:-} in
-      "" | --full) "$build/plots/gallery" && "$build/plots/taylor" "$@" ;;
-      --list) "$build/plots/gallery" --list && "$build/plots/taylor" --list ;;
+      "" | --full) "$build/plots/gallery" && "$build/plots/ice_comparison" && "$build/plots/taylor" "$@" ;;
+      --list) "$build/plots/gallery" --list && echo "ice_comparison         the two schemes of the gas at a strong shock" && "$build/plots/taylor" --list ;;
+      ice_comparison) "$build/plots/ice_comparison" ;;
       taylor_*) "$build/plots/taylor" "$@" ;;
       *) "$build/plots/gallery" "$@" ;;
     esac

@@ -174,6 +174,27 @@ TEST(ClassicScheme, CarriesTwoFluidsAtOneVelocity) {
   EXPECT_LT(slip, 1e-9);
 }
 
+TEST(ClassicScheme, GoesOnAfterARestartAsWithoutIt) {
+  const auto domain = single_process();
+  const auto start = [&] {
+    Gas gas = set_up::box(Geometry::plane, 0.1, {}, {16, 8, 0},
+                          {set_up::ideal_gas(1.4), {"other", equation_of_state::IdealGas{1.6, 1.0}}}, *domain);
+    gas.classic.emplace();
+    fill(
+        gas,
+        [](const Vector& x, double) {
+          return x[0] < 0.5 ? Filling{1, 4.0, 2.0, {}} : Filling{0, 1.0, 1.0, {}};
+        },
+        *domain);
+    return gas;
+  };
+  Gas gas = start(), again = start();
+  Stepper().steps(gas, 10, *domain);
+  restore(again, numbers_of(gas), *domain);
+  Stepper().steps(gas, 5, *domain), Stepper().steps(again, 5, *domain);
+  EXPECT_EQ(numbers_of(gas), numbers_of(again));
+}
+
 TEST(ClassicScheme, RefusesWhatItCannotDo) {
   const auto domain = single_process();
   Gas gas = set_up::box(Geometry::axisymmetric, 0.1, {}, {8, 8, 0}, {set_up::ideal_gas()}, *domain);

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "simulator/gas/transport.hpp"
 #include "tests/simulator/gas/set_up.hpp"
+#include "tests/simulator/virtual_ranks.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -354,6 +357,57 @@ TEST(ViscousBox, KeepsMomentumAndEnergyInEveryGeometry) {
       EXPECT_NEAR(after.momentum[a], impulse, round_off * scale) << geometry;
     }
   }
+}
+
+// Bits -----------------------------------------------------------------------------------------------------------------
+
+Gas stirred(Domain& domain) {
+  Gas gas = set_up::box(Geometry::axisymmetric, 0.05, {}, {40, 24, 0},
+                        {viscous_gas(0.01, 0.02, 0.03), viscous_gas(0.001, 0.0, 0.1)}, domain);
+  gas.heat_exchange = 10.0;
+  gas.edges[1] = sticking({0.0, 0.2, 0.0}, 2.0);
+  gas.edges[2] = gas.edges[3] = set_up::around();
+  fill(
+      gas,
+      [&](const Vector& x, double) {
+        const double u = 0.3 * std::sin(5.0 * x[0]);
+        return Filling{x[0] + x[1] > 1.2 ? 1 : 0, x[0] < 0.9 ? 2.0 : 1.0, 1.0, {u, 0.5 * u, 0.0}};
+      },
+      domain);
+  return gas;
+}
+
+TEST(ViscousBox, HasTheSameBitsForAnyNumberOfRanksAndAfterARestart) {
+  constexpr int steps = 15;
+  using State = std::map<std::array<int, 3>, std::array<double, 4>>;
+  const auto add_state = [](const Gas& gas, State& state) {
+    set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
+      state[c.index] = {c.density, c.pressure, c.velocity[0], c.velocity[1]};
+    });
+  };
+  std::vector<State> states;
+  for (const int ranks : {1, 2, 5}) {
+    State state;
+    std::mutex one_at_a_time;
+    VirtualRanks::run(ranks, [&](std::shared_ptr<Domain> domain) {
+      Gas gas = stirred(*domain);
+      Stepper().steps(gas, steps, *domain);
+      const std::lock_guard lock(one_at_a_time);
+      add_state(gas, state);
+    });
+    states.push_back(state);
+  }
+  EXPECT_TRUE(states[0] == states[1]);
+  EXPECT_TRUE(states[0] == states[2]);
+
+  const auto domain = single_process();
+  Gas gas = stirred(*domain), again = stirred(*domain);
+  Stepper().steps(gas, steps - 5, *domain);
+  restore(again, numbers_of(gas), *domain);
+  Stepper().steps(again, 5, *domain);
+  State state;
+  add_state(again, state);
+  EXPECT_TRUE(states[0] == state);
 }
 
 }  // namespace
