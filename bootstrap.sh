@@ -74,16 +74,21 @@ case $action in
     ;;
   validate)
     install_packages
-    build -DBRISANCE_BUILD_TESTS=OFF gallery taylor gas
+    build -DBRISANCE_BUILD_TESTS=OFF gallery ice_comparison taylor gas
     case ${1:-} in
       "" | --full)
         missed=0  # one that misses a limit does not keep the others from being made
         "$build/plots/gallery" || missed=1
+        "$build/plots/ice_comparison" || missed=1
         "$build/plots/taylor" "$@" || missed=1
         "$build/plots/gas" || missed=1
         exit $missed
         ;;
-      --list) for program in gallery taylor gas; do "$build/plots/$program" --list; done ;;
+      --list)
+        for program in gallery taylor gas; do "$build/plots/$program" --list; done
+        echo "ice_comparison         the two schemes of the gas at a strong shock"
+        ;;
+      ice_comparison) "$build/plots/ice_comparison" ;;
       taylor_*) "$build/plots/taylor" "$@" ;;
       gas_*) "$build/plots/gas" "$@" ;;
       *) "$build/plots/gallery" "$@" ;;

@@ -527,6 +527,22 @@ class CaseReader : public KeyReader<CaseReader> {
       in.problem("a state would be ignored: nothing comes through a wall or from beyond a period");
     }
   }
+  /// The limits of simulator/gas/classic.hpp.
+  void check_classic(TableReader& in, const GasConfig& gas) {
+    const auto refuse = [&](bool when, std::string_view reason) {
+      if (when) in.problem("scheme", "ice_classic " + std::string(reason));
+    };
+    refuse(is_round(case_.geometry), "has no round geometries; use planar_1d, plane or three_dimensional, or scheme = \"ice\"");
+    refuse(std::any_of(gas.edges.begin(), gas.edges.end(),
+                       [](const EdgeConfig& e) { return e.kind != EdgeKind::wall && e.kind != EdgeKind::periodic; }),
+           "has walls and periodic sides only; remove the other edges, or use scheme = \"ice\"");
+    refuse(case_.gravity != Vector{}, "has no gravity; remove it, or use scheme = \"ice\"");
+    refuse(gas.implicit, "is explicit; remove implicit, or use scheme = \"ice\"");
+    refuse(
+        std::any_of(gas.fluids.begin(), gas.fluids.end(),
+                    [](const FluidConfig& f) { return f.viscosity > 0.0 || f.bulk_viscosity > 0.0 || f.conductivity > 0.0; }),
+        "has no viscosity or conduction; remove them, or use scheme = \"ice\"");
+  }
   void check_box(TableReader& in, GasConfig& gas) {
     for (std::size_t k = 0; k < dimensions() && case_.cell_size > 0.0; ++k) {
       if (!(gas.lower[k] < gas.upper[k]))
@@ -550,6 +566,7 @@ class CaseReader : public KeyReader<CaseReader> {
     if (gas.momentum_exchange != GasConfig{}.momentum_exchange && gas.scheme != GasScheme::ice_classic)
       in.problem("momentum_exchange",
                  "it would be ignored: fluids of a cell have one velocity but with scheme = \"ice_classic\"");
+    if (gas.scheme == GasScheme::ice_classic) check_classic(in, gas);
     const bool round = is_round(case_.geometry);
     if (round && gas.lower[0] < 0.0) in.problem("lower", "r = " + in_metres(gas.lower[0]) + "; a radius is not negative");
     if (round && case_.gravity[0] != 0.0) in.problem("lower", "gravity along r is not possible");

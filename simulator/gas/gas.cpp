@@ -5,6 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "simulator/gas/classic.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/ghosts.hpp"
 #include "simulator/gas/implicit.hpp"
@@ -12,6 +13,7 @@
 #include "simulator/gas/passages.hpp"
 #include "simulator/gas/remap.hpp"
 #include "simulator/gas/sums.hpp"
+#include "simulator/gas/transport.hpp"
 #include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
@@ -59,6 +61,7 @@ bool try_step(Gas& gas, double dt, Domain& domain) {
   timed(gas, Phase::ghosts, [&] { share_half_step(gas, dt, domain); });
   const auto all_bear = [&](bool borne) { return domain.maximum(borne ? 0.0 : 1.0) == 0.0; };
   if (!all_bear(timed(gas, Phase::lagrangian, [&] { return lagrangian_phase(gas, dt); }))) return false;
+  timed(gas, Phase::lagrangian, [&] { apply_transport(gas, dt); });
   // The order of the axes turns around with every step, so that none is always first.
   const int D = gas.dimensions();
   Vector moved{dt, dt, dt};
@@ -112,28 +115,40 @@ void fill_in_portions(Gas& gas, const PortionsFunction& portions, Domain& domain
   });
   if (gas.implicit) open_implicit(gas, domain);
   place_bodies(gas, domain);
+  if (gas.classic) open_classic(gas, domain);
   begin(gas, domain);
   gas.initial = totals(gas, domain);
 }
 
 void begin(Gas& gas, Domain& domain) {
+  if (gas.classic) return show_classic(gas);
   timed(gas, Phase::equilibrium, [&] { find_equilibrium(gas); });
   gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
   timed(gas, Phase::ghosts, [&] { share_primitives(gas, gas.time, domain); });
+  timed(gas, Phase::half_step, [&] { prepare_transport(gas, domain); });
 }
 
 double largest_step(const Gas& gas, double courant) {
-  constexpr double most_swept = 0.5;  // of a cell, through one face
-  double step =
-      std::min((gas.implicit ? gas.acoustic_courant : courant) / gas.wave_rate, most_swept / std::max(gas.motion_rate, 1e-300));
-  constexpr double farthest = 0.25;  // cells that a wall may move
-  if (!gas.bodies.empty()) step = std::min(step, farthest * gas.cells.cell_size / std::max(fastest(gas), 1e-300));
-  return step;
+  constexpr double most_swept = 0.5;     // of a cell, through one face
+  constexpr double most_diffused = 0.8;  // of what makes neighbours alike at once
+  constexpr double farthest = 0.25;      // cells that a wall may move
+  constexpr double least = 1e-300;
+  const double wall = gas.bodies.empty() ? 0.0 : fastest(gas) / gas.cells.cell_size;
+  return std::min({(gas.implicit ? gas.acoustic_courant : courant) / gas.wave_rate,
+                   most_swept / std::max(gas.motion_rate, least), most_diffused / std::max(gas.diffusion_rate, least),
+                   farthest / std::max(wall, least)});
 }
 
 Outcome advance(Gas& gas, double dt, Domain& domain) {
   clear_step(gas.passages);
   if (!gas.bodies.empty()) return advance_with_bodies(gas, dt, domain);
+  if (gas.classic) {
+    if (advance_classic(gas, dt) == Outcome::rejected) return Outcome::rejected;
+    book_step(gas.passages);
+    gas.time += dt, ++gas.step;
+    begin(gas, domain);
+    return Outcome::done;
+  }
   const std::int64_t flattened = gas.flattened;
   gas.careful = false;
   constexpr int most_attempts = 3;
@@ -224,7 +239,7 @@ std::vector<Totals> passed(const Gas& gas, Domain& domain) {
 
 std::size_t Gas::bytes() const {
   std::size_t sum = swept.capacity() * sizeof(Lanes) + face_laws.capacity() * sizeof(FaceLaw);
-  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step, &gradient, &unknown}) sum += set->bytes();
+  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step, &transport, &unknown}) sum += set->bytes();
   return sum;
 }
 
@@ -243,6 +258,12 @@ std::vector<double> numbers_of(const Gas& gas) {
       const double* first = reinterpret_cast<const double*>(set->at(static_cast<std::size_t>(b), 0));
       numbers.insert(numbers.end(), first, first + set->quantities() * set->packs() * 8);
     }
+  if (gas.classic) {
+    const ClassicState& s = *gas.classic;
+    for (const std::vector<double>* values : {&s.mass, &s.volume, &s.internal})
+      numbers.insert(numbers.end(), values->begin(), values->end());
+    for (const Vector& momentum : s.momentum) numbers.insert(numbers.end(), momentum.begin(), momentum.end());
+  }
   for (const Passage& p : gas.passages) {
     const auto keep = [&](const CompensatedSum& sum) {
       const double* first = reinterpret_cast<const double*>(&sum);
@@ -271,6 +292,13 @@ void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
       std::copy_n(next, count, reinterpret_cast<double*>(set->at(static_cast<std::size_t>(b), 0)));
       next += count;
     }
+  if (gas.classic) {
+    ClassicState& s = *gas.classic;
+    for (std::vector<double>* values : {&s.mass, &s.volume, &s.internal})
+      for (double& value : *values) value = *next++;
+    for (Vector& momentum : s.momentum)
+      for (double& component : momentum) component = *next++;
+  }
   for (Passage& p : gas.passages) {
     const auto take = [&](CompensatedSum& sum) {
       static_assert(std::is_trivially_copyable_v<CompensatedSum>);
@@ -284,6 +312,7 @@ void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
   restore(gas.bodies, next);
   place_bodies(gas, domain);
   share_primitives(gas, gas.time, domain);
+  prepare_transport(gas, domain);
 }
 
 }  // namespace brisance::simulator::gas

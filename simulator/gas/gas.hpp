@@ -74,6 +74,13 @@ struct HalfStep {
   static constexpr int count(int dimensions) { return 2 + dimensions; }
 };
 
+/// Coefficients, temperature and velocity gradients of a cell, from which stress and heat flow follow.
+struct Transport {
+  static constexpr int viscosity = 0, bulk_viscosity = 1, conductivity = 2, temperature = 3;  // Pa s, W/(m K), K
+  static constexpr int gradient = 4;  // 1/s: of each component along each axis
+  static constexpr int count(int dimensions) { return gradient + dimensions * dimensions; }
+};
+
 /// What has passed the faces of one block on one side of the box, into it: mass of each fluid (kg), impulse of the pressure and
 /// momentum carried (N s), energy (J).
 struct Passage {
@@ -133,7 +140,7 @@ struct Gas {
   CellSet content;                                      // at the start of the step
   CellSet moved, next;                                  // after the Lagrangian phase and each sweep of the remap
   CellSet primitive, half_step;                         // scratch
-  CellSet gradient;                                     // scratch of viscous stresses, 1/s: [component][axis]
+  CellSet transport;                                    // with viscosity or conduction: see Transport
   CellSet unknown;                                      // implicit: number of each cell among the unknowns; -1: none
   std::vector<FaceLaw> face_laws;                       // implicit: [block][axis][pencil][face]
   std::vector<Lanes> swept;                             // m^3 that pass the faces in a step: [block][axis][pencil][face]

@@ -24,6 +24,7 @@ Gas make_gas(const Case& c, Domain& domain) {
   }
   gas.gravity = c.gravity, gas.courant = config.courant, gas.least_mach = config.least_mach;
   gas.implicit = config.implicit, gas.acoustic_courant = config.acoustic_courant, gas.heat_exchange = config.heat_exchange;
+  if (config.scheme == GasScheme::ice_classic) gas.classic.emplace().momentum_exchange = config.momentum_exchange;
   std::array<int, 3> lower{}, upper{};
   for (std::size_t a = 0; a < 3; ++a) {
     lower[a] = static_cast<int>(std::lround(config.lower[a] / c.cell_size));

@@ -1,0 +1,22 @@
+#pragma once
+// The classic scheme, kept to compare with: explicit ICE as it has been since 1993 (Kashiwa et al., LA-UR-93-3922; Kashiwa &
+// Rauenzahn, LA-UR-94-771; VanderHeyden & Kashiwa, J. Comput. Phys. 146 (1998) 1). Each fluid has its own velocity and internal
+// energy; a drag that knows no bounds makes the velocities one. Energy is not conserved, and strong shocks do not converge:
+// that is what it is here to show.
+//
+// Limits: straight geometries, walls and periodic sides, one process, no gravity, viscosity or conduction. What sweeps out of a
+// cell is taken along the axis of the face, without the offset across it.
+
+#include "simulator/gas/gas.hpp"
+
+namespace brisance::simulator::gas {
+
+/// Why a gas cannot be advanced by the classic scheme, one reason a line; empty if it can.
+std::string classic_limits(const Gas& gas);
+/// Takes the state of the classic scheme from what the gas is filled with. Throws std::runtime_error with classic_limits.
+void open_classic(Gas& gas, const Domain& domain);
+/// Contents and primitives as the classic state has them: for output and books.
+void show_classic(Gas& gas);
+Outcome advance_classic(Gas& gas, double dt);
+
+}  // namespace brisance::simulator::gas

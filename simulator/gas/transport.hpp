@@ -1,0 +1,23 @@
+#pragma once
+// Viscosity and conduction: what neighbouring cells hand each other without any gas passing. Constant coefficients for each
+// fluid, in a cell those of its fluids by volume; explicit, at the start of the step.
+//
+//   stress    tau_ab = mu (d_a u_b + d_b u_a) + (zeta - 2/3 mu) div u delta_ab
+//   heat      q_a = -k d_a T, T the mean of the fluids by heat capacity
+//
+// Both act through faces, so momentum and total energy are kept; about an axis or a centre the hoop stress pushes as well.
+// (Landau & Lifshitz, Fluid Mechanics, 2nd ed. 1987, sections 15, 49.)
+
+#include "simulator/gas/gas.hpp"
+
+namespace brisance::simulator::gas {
+
+/// Whether any fluid has a viscosity or conducts.
+bool has_transport(const Gas& gas);
+/// Coefficients, temperatures and velocity gradients from the state at the start of a step, and the largest rate of diffusion.
+/// Nothing without transport.
+void prepare_transport(Gas& gas, Domain& domain);
+/// What viscous stress, conduction and the exchange of heat between fluids do in dt (s) to the cells that have moved.
+void apply_transport(Gas& gas, double dt);
+
+}  // namespace brisance::simulator::gas
