@@ -352,7 +352,7 @@ WallPush wall_pressure(const Gas& gas, const CutCell& c) {
 struct Received {
   Vector impulse{};   // N s
   double work = 0.0;  // J, of the pressure on the wall
-  double area = 0.0;  // m^2
+  double push = 0.0;  // N s, the impulses of all of its cells without their directions
 };
 
 /// Pushes cells along; returns what the cut cells give to the bodies, one of each cut cell.
@@ -392,7 +392,7 @@ std::vector<Received> push_cells(Gas& gas, double dt) {
           dt * (w.index(c.cell)[0] < 0 ? -side : side) * (push.momentum_pressure - push.pressure);
     }
     Received& r = received[k];
-    r.impulse = (dt * push.pressure) * c.wall, r.work = push.pressure * c.growth, r.area = magnitude(c.wall);
+    r.impulse = (dt * push.pressure) * c.wall, r.work = push.pressure * c.growth, r.push = magnitude(r.impulse);
     s.change[Content::energy][c.cell] -= r.work;
   });
   return received;
@@ -410,7 +410,7 @@ void for_each_cut_cell(const Gas& gas, const std::vector<std::int32_t>& number, 
 }
 
 /// Sums what each body has received, and gives back to the gas what the work of the wall's pressure exceeds the work on a body
-/// that the gas drives by. Also sets the bodies' next velocities.
+/// that the gas drives by: to each cell as it has pushed. Also sets the bodies' next velocities.
 void settle_with_bodies(Gas& gas, const std::vector<Received>& received, double dt, std::vector<MovingBody::State>& next,
                         std::vector<Received>& sums, Domain& domain) {
   Bodies& bodies = gas.bodies;
@@ -425,12 +425,12 @@ void settle_with_bodies(Gas& gas, const std::vector<Received>& received, double 
       if (bodies.step.cut[k].body < 0) return;
       double* at_body = of_block.data() + numbers * static_cast<std::size_t>(bodies.step.cut[k].body);
       for (std::size_t a = 0; a < 3; ++a) at_body[a] += received[k].impulse[a];
-      at_body[3] += received[k].work, at_body[4] += received[k].area;
+      at_body[3] += received[k].work, at_body[4] += received[k].push;
     });
     mine.insert(mine.end(), of_block.begin(), of_block.end());
   }
   const std::vector<double> total = sum_of_ranks(mine, numbers * bodies.all.size(), domain);
-  std::vector<double> excess(bodies.all.size(), 0.0);  // J/m^2
+  std::vector<double> excess(bodies.all.size(), 0.0);  // J per N s
   for (std::size_t b = 0; b < bodies.all.size(); ++b) {
     const double* of = total.data() + numbers * b;
     sums[b] = {{of[0], of[1], of[2]}, of[3], of[4]};
@@ -440,12 +440,13 @@ void settle_with_bodies(Gas& gas, const std::vector<Received>& received, double 
     const double before = body.state.velocity[axis], after = before + sums[b].impulse[axis] / body.mass;
     next[b].velocity[axis] = after, next[b].acceleration[axis] = (after - before) / dt;
     const double done = sums[b].impulse[axis] * (0.5 * (before + after));
-    if (sums[b].area > 0.0) excess[b] = (sums[b].work - done) / sums[b].area;
-    if (sums[b].area > 0.0) sums[b].work = done;
+    if (!(sums[b].push > 0.0)) continue;
+    excess[b] = (sums[b].work - done) / sums[b].push;
+    sums[b].work = done;
   }
   for (std::size_t k = 0; k < bodies.step.cut.size(); ++k) {
     const CutCell& c = bodies.step.cut[k];
-    if (c.body >= 0) s.change[Content::energy][c.cell] += excess[static_cast<std::size_t>(c.body)] * received[k].area;
+    if (c.body >= 0) s.change[Content::energy][c.cell] += excess[static_cast<std::size_t>(c.body)] * received[k].push;
   }
 }
 
