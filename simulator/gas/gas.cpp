@@ -10,6 +10,7 @@
 #include "simulator/gas/ghosts.hpp"
 #include "simulator/gas/lagrangian.hpp"
 #include "simulator/gas/passages.hpp"
+#include "simulator/gas/reaction.hpp"
 #include "simulator/gas/remap.hpp"
 #include "simulator/parallel.hpp"
 
@@ -65,6 +66,7 @@ void fill(Gas& gas, const FillingFunction& filling, Domain& domain) {
   gas.primitive.resize(blocks), gas.half_step.resize(blocks);
   gas.swept.assign(blocks * static_cast<std::size_t>(D * (D == 3 ? 8 : 1) * line_faces), Lanes(0.0));
   open_passages(gas);
+  prepare_burns(gas);
   for (Fluid& fluid : gas.fluids) give_usual_state(fluid);
   for (std::size_t block = 0; block < blocks; ++block)
     for (int c = 0; c < 8 * packs; ++c) {
@@ -98,6 +100,8 @@ Outcome advance(Gas& gas, double dt, Domain& domain) {
   timed(gas, Phase::ghosts, [&] { share_half_step(gas, dt, domain); });
   const bool good = timed(gas, Phase::lagrangian, [&] { return lagrangian_phase(gas, dt); });
   if (domain.maximum(good ? 0.0 : 1.0) > 0.0) return Outcome::rejected;
+  const std::int64_t capped = gas.capped;
+  timed(gas, Phase::reaction, [&] { react(gas, dt, domain); });
   // The order of the axes turns around with every step, so that none is always first.
   const int D = gas.dimensions();
   const std::int64_t flattened = gas.flattened;
@@ -107,7 +111,7 @@ Outcome advance(Gas& gas, double dt, Domain& domain) {
     timed(gas, Phase::ghosts, [&] { share_moved(gas, gas.time + dt, moved, domain); });
     const bool held = timed(gas, Phase::remap, [&] { return sweep(gas, axis); });
     if (domain.maximum(held ? 0.0 : 1.0) > 0.0) {
-      gas.flattened = flattened;
+      gas.flattened = flattened, gas.capped = capped;
       return Outcome::rejected;
     }
     std::swap(gas.moved, gas.next);
@@ -154,30 +158,45 @@ Totals totals(const Gas& gas, Domain& domain) {
   return result;
 }
 
-std::vector<Totals> passed(const Gas& gas, Domain& domain) {
-  const std::size_t fluids = gas.fluids.size(), numbers = fluids + 4;
-  std::vector<Totals> result;
-  for (int side = 0; side <= 2 * gas.dimensions(); ++side) {
-    std::vector<double> sums;
-    for (const Passage& p : gas.passages) {
-      if (p.side != side) continue;
-      for (const CompensatedSum& mass : p.mass) sums.push_back(mass.value());
-      for (const CompensatedSum& momentum : p.momentum) sums.push_back(momentum.value());
-      sums.push_back(p.energy.value());
-    }
-    const std::vector<double> total = sum_of_ranks(sums, numbers, domain);
-    Totals through;
-    through.mass.assign(total.begin(), total.begin() + static_cast<std::ptrdiff_t>(fluids));
-    for (std::size_t a = 0; a < 3; ++a) through.momentum[a] = total[fluids + a];
-    through.energy = total[fluids + 3];
-    result.push_back(through);
+namespace {
+
+/// What the passages of one side have booked.
+Totals through(const Gas& gas, int side, Domain& domain) {
+  const std::size_t fluids = gas.fluids.size();
+  std::vector<double> sums;
+  for (const Passage& p : gas.passages) {
+    if (p.side != side) continue;
+    for (const CompensatedSum& mass : p.mass) sums.push_back(mass.value());
+    for (const CompensatedSum& momentum : p.momentum) sums.push_back(momentum.value());
+    sums.push_back(p.energy.value());
   }
+  const std::vector<double> total = sum_of_ranks(sums, fluids + 4, domain);
+  Totals result;
+  result.mass.assign(total.begin(), total.begin() + static_cast<std::ptrdiff_t>(fluids));
+  for (std::size_t a = 0; a < 3; ++a) result.momentum[a] = total[fluids + a];
+  result.energy = total[fluids + 3];
+  return result;
+}
+
+}  // namespace
+
+std::vector<Totals> passed(const Gas& gas, Domain& domain) {
+  std::vector<Totals> result;
+  for (int side = 0; side <= 2 * gas.dimensions(); ++side) result.push_back(through(gas, side, domain));
+  return result;
+}
+
+std::vector<Totals> burned(const Gas& gas, Domain& domain) {
+  std::vector<Totals> result;
+  for (std::size_t n = 0; n < gas.burns.size(); ++n)
+    result.push_back(through(gas, first_burn_side + static_cast<int>(n), domain));
   return result;
 }
 
 std::size_t Gas::bytes() const {
   std::size_t sum = swept.capacity() * sizeof(Lanes);
-  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step}) sum += set->bytes();
+  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step, &burning_area, &filtered, &filtering, &released})
+    sum += set->bytes();
   return sum;
 }
 
@@ -204,6 +223,7 @@ std::vector<double> numbers_of(const Gas& gas) {
     for (const CompensatedSum& momentum : p.momentum) keep(momentum);
     keep(p.energy);
   }
+  numbers.push_back(static_cast<double>(gas.capped));
   return numbers;
 }
 
@@ -231,6 +251,7 @@ void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
     for (CompensatedSum& momentum : p.momentum) take(momentum);
     take(p.energy);
   }
+  gas.capped = static_cast<std::int64_t>(*next);
   share_primitives(gas, gas.time, domain);
 }
 

@@ -19,7 +19,7 @@ Filling filling_of(const GasConfig& config, const std::vector<Fluid>& fluids, co
   filling.fluid = number_of(config, state.fluid);
   const EquationOfState& law = fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state;
   filling.density = state.density ? *state.density : equation_of_state::density_at(law, state.pressure, *state.temperature);
-  filling.pressure = state.pressure, filling.velocity = state.velocity;
+  filling.pressure = state.pressure, filling.velocity = state.velocity, filling.temperature = state.temperature.value_or(0.0);
   return filling;
 }
 
@@ -52,6 +52,12 @@ Gas make_gas(const Case& c, Domain& domain) {
     else if (edge.kind != EdgeKind::wall && edge.kind != EdgeKind::periodic)
       beyond = filling_of(config, gas.fluids, edge);
     made.beyond = [beyond](const Vector&, double) { return beyond; };
+  }
+  for (const ReactionConfig& reaction : config.reactions) {
+    Burn burn{reaction.name, number_of(config, reaction.reactant), number_of(config, reaction.product), {}, {}};
+    burn.law = *config.fluids[static_cast<std::size_t>(burn.reactant)].material.material.reaction;
+    for (const IgnitionConfig& ignition : reaction.ignitions) burn.ignitions.push_back({ignition.shape, ignition.time});
+    gas.burns.push_back(std::move(burn));
   }
   std::vector<Filling> fillings;
   for (const FillConfig& fill : config.fills) fillings.push_back(filling_of(config, gas.fluids, fill));

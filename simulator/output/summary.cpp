@@ -21,6 +21,8 @@ std::string in_words(const GasBooks& books) {
   row("at the start", books.initial), row("now", books.state);
   for (const auto& [name, through] : books.entries)
     if (through.energy != 0.0) row("by " + name, through);
+  for (const ReactionBook& reaction : books.reactions)
+    text += fmt::format("  {:24} {:14.6g} {:14.6g}\n", "burned by " + reaction.name, reaction.burned, reaction.made.energy);
   row("in no book", books.residual());
   return text;
 }
