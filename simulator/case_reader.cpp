@@ -16,6 +16,7 @@
 #include "models/input/table_reader.hpp"
 #include "simulator/gas/fields.hpp"
 #include "simulator/gas/initial_state.hpp"
+#include "simulator/gas/reaction.hpp"
 #include "simulator/keys.hpp"
 #include "simulator/output/gauges.hpp"
 #include "simulator/output/line_out.hpp"
@@ -542,6 +543,41 @@ class CaseReader : public KeyReader<CaseReader> {
         std::any_of(gas.fluids.begin(), gas.fluids.end(),
                     [](const FluidConfig& f) { return f.viscosity > 0.0 || f.bulk_viscosity > 0.0 || f.conductivity > 0.0; }),
         "has no viscosity or conduction; remove them, or use scheme = \"ice\"");
+    refuse(!gas.reactions.empty(), "has no reactions; remove them, or use scheme = \"ice\"");
+  }
+  static void check(TableReader&, IgnitionConfig&, const std::vector<IgnitionConfig>&) {}
+  void check(TableReader& in, ReactionConfig& reaction, const std::vector<ReactionConfig>& others) {
+    require_own_name(in, reaction, others);
+    std::vector<std::string_view> names;
+    for (const FluidConfig& fluid : gas_->fluids) names.push_back(fluid.name);
+    const auto find = [&](std::string_view key, const std::string& name) -> const FluidConfig* {
+      for (const FluidConfig& fluid : gas_->fluids)
+        if (fluid.name == name) return &fluid;
+      in.problem(key, "there is no fluid " + in_quotes(name) + "; there is " + listed(names) + did_you_mean(name, names));
+      return nullptr;
+    };
+    const FluidConfig* reactant = find("reactant", reaction.reactant);
+    find("product", reaction.product);
+    if (reaction.reactant == reaction.product) in.problem("product", "a fluid cannot burn to itself; name another fluid");
+    const auto burns_too = [&](const ReactionConfig& other) { return other.reactant == reaction.reactant; };
+    if (std::any_of(others.begin(), others.end(), burns_too))
+      in.problem("reactant",
+                 in_quotes(reaction.reactant) + " burns in another [[gas.reaction]] already; each fluid has one law");
+    if (!reactant) return;
+    const std::optional<Reaction>& law = reactant->material.material.reaction;
+    if (!law)
+      return in.problem("reactant", "the material of " + in_quotes(reactant->name) +
+                                        " has no [reaction] table, so how it burns is unknown; give it one");
+    if (std::holds_alternative<reaction::JwlPlusPlus>(*law) && !reaction.ignitions.empty())
+      in.problem("ignition",
+                 "it would be ignored: jwl_plus_plus burns by pressure alone; start it by a [[gas.fill]] of product "
+                 "at high pressure");
+    if (!std::holds_alternative<reaction::ProgramBurn>(*law)) return;
+    for (const IgnitionConfig& ignition : reaction.ignitions)
+      if (ignition.shape && !gas::distance(*ignition.shape, {}))
+        in.problem("ignition",
+                   "a programmed detonation starts from boxes, spheres and unions of them; distances to other shapes "
+                   "are not known");
   }
   void check_box(TableReader& in, GasConfig& gas) {
     for (std::size_t k = 0; k < dimensions() && case_.cell_size > 0.0; ++k) {

@@ -176,6 +176,18 @@ struct EdgeConfig : GasStateConfig {
   EdgeKind kind = EdgeKind::wall;
 };
 
+/// Where, and from when on, something burns that would not by itself, or a programmed detonation starts.
+struct IgnitionConfig {
+  ShapePointer shape;  // absent: everywhere
+  double time = 0.0;   // s
+};
+/// A fluid burns to another one, by the law of its material.
+struct ReactionConfig {
+  std::string name = "reaction";
+  std::string reactant, product;  // fluids
+  std::vector<IgnitionConfig> ignitions;
+};
+
 /// Gas in a box of cells, with walls where no edge says otherwise. Later fills lie over earlier ones.
 struct GasConfig {
   Vector lower{}, upper{};  // m, on planes of nodes
@@ -189,6 +201,7 @@ struct GasConfig {
   std::vector<FluidConfig> fluids;
   std::vector<FillConfig> fills;
   std::vector<EdgeConfig> edges;
+  std::vector<ReactionConfig> reactions;
 };
 
 // Observation --------------------------------------------------------------------------------------------------------

@@ -56,6 +56,7 @@ void check_gas(const GateConfig& limits, const GasBooks& books, const Simulation
     energy += std::abs(through.energy);
     for (const double m : through.mass) mass += std::abs(m);
   }
+  for (const ReactionBook& reaction : books.reactions) mass += reaction.burned, energy += std::abs(reaction.made.energy);
   for (const double m : residual.mass)
     require("residual", "mass of gas that is in no book", std::abs(m), limits.residual * mass, Extensive::mass);
   require("residual", "energy of gas that is in no book", std::abs(residual.energy), limits.residual * energy,

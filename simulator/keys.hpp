@@ -136,7 +136,7 @@ inline constexpr auto keys<LoadConfig> = std::tuple{
     Key{"traction", &LoadConfig::traction, Unit::Pa, "force per area of the undeformed surface"},
     Key{"amplitude", &LoadConfig::amplitude, Unit::one, "factor on the traction; a table over time"}};
 
-// Gas: [gas], [[gas.fluid]], [[gas.fill]], [[gas.edge]] ------------------------------------------------------------------
+// Gas: [gas], [[gas.fluid]], [[gas.fill]], [[gas.edge]], [[gas.reaction]] --------------------------------------------------
 
 template <>
 inline constexpr auto keys<FluidConfig> = std::tuple{
@@ -186,6 +186,20 @@ inline constexpr auto keys<EdgeConfig> = std::tuple_cat(
     gas_state_keys<EdgeConfig>);
 
 template <>
+inline constexpr auto keys<IgnitionConfig> =
+    std::tuple{Key{"shape", &IgnitionConfig::shape, Unit::one, "the region that is lit; all of the box if not given"},
+               Key{"time", &IgnitionConfig::time, Unit::s, "from when on", non_negative}};
+
+template <>
+inline constexpr auto keys<ReactionConfig> =
+    std::tuple{Key{"name", &ReactionConfig::name, Unit::one, "what the reaction is called in output"},
+               Key{"reactant", &ReactionConfig::reactant, Unit::one, "fluid that burns, by the [reaction] of its material",
+                   any_value, required},
+               Key{"product", &ReactionConfig::product, Unit::one, "fluid that it burns to", any_value, required},
+               Key{"ignition", &ReactionConfig::ignitions, Unit::one,
+                   "what is lit: a surface, however cold it is; where a programmed detonation starts"}};
+
+template <>
 inline constexpr auto keys<GasConfig> = std::tuple{
     Key{"lower", &GasConfig::lower, Unit::m, "lower corner of the box, a multiple of cell_size", any_value, required},
     Key{"upper", &GasConfig::upper, Unit::m, "upper corner of the box, a multiple of cell_size", any_value, required},
@@ -207,7 +221,8 @@ inline constexpr auto keys<GasConfig> = std::tuple{
     Key{"fluid", &GasConfig::fluids, Unit::one, "a gas or liquid", any_value, required},
     Key{"fill", &GasConfig::fills, Unit::one, "what a region holds at the start; later ones lie over earlier ones", any_value,
         required},
-    Key{"edge", &GasConfig::edges, Unit::one, "a side of the box that is no wall"}};
+    Key{"edge", &GasConfig::edges, Unit::one, "a side of the box that is no wall"},
+    Key{"reaction", &GasConfig::reactions, Unit::one, "a fluid burns to another"}};
 
 // Observation: [[gauge]], [[measure]], [[figure]], [output], [gates] -----------------------------------------------------
 

@@ -375,7 +375,9 @@ void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell
   for (const auto& [part, filling] : portions) {
     const double room = part * whole, mass = filling.density * room;
     const EquationOfState& law = gas.fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state;
-    const double internal = mass * energy_of(law, filling.density, filling.pressure);
+    const bool by_temperature = filling.temperature > 0.0 && eos::caloric(law) == eos::Caloric::barotropic;
+    const double internal = mass * (by_temperature ? eos::energy(law, filling.density, filling.temperature)
+                                                   : energy_of(law, filling.density, filling.pressure));
     double kinetic = 0.0;
     for (int a = 0; a < D; ++a) {
       const double u = filling.velocity[static_cast<std::size_t>(a)];

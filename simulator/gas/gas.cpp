@@ -11,6 +11,7 @@
 #include "simulator/gas/implicit.hpp"
 #include "simulator/gas/lagrangian.hpp"
 #include "simulator/gas/passages.hpp"
+#include "simulator/gas/reaction.hpp"
 #include "simulator/gas/remap.hpp"
 #include "simulator/gas/sums.hpp"
 #include "simulator/gas/transport.hpp"
@@ -62,6 +63,7 @@ bool try_step(Gas& gas, double dt, Domain& domain) {
   const auto all_bear = [&](bool borne) { return domain.maximum(borne ? 0.0 : 1.0) == 0.0; };
   if (!all_bear(timed(gas, Phase::lagrangian, [&] { return lagrangian_phase(gas, dt); }))) return false;
   timed(gas, Phase::lagrangian, [&] { apply_transport(gas, dt); });
+  timed(gas, Phase::reaction, [&] { react(gas, dt, domain); });
   // The order of the axes turns around with every step, so that none is always first.
   const int D = gas.dimensions();
   Vector moved{dt, dt, dt};
@@ -98,6 +100,7 @@ void fill_in_portions(Gas& gas, const PortionsFunction& portions, Domain& domain
   gas.primitive.resize(blocks), gas.half_step.resize(blocks);
   gas.swept.assign(blocks * static_cast<std::size_t>(D * (D == 3 ? 8 : 1) * line_faces), Lanes(0.0));
   open_passages(gas);
+  prepare_burns(gas);
   for (Fluid& fluid : gas.fluids) give_usual_state(fluid);
   // Cells that are not of the box hold something all the same: they are computed with, to no effect.
   Vector corner{};
@@ -149,11 +152,11 @@ Outcome advance(Gas& gas, double dt, Domain& domain) {
     begin(gas, domain);
     return Outcome::done;
   }
-  const std::int64_t flattened = gas.flattened;
+  const std::int64_t flattened = gas.flattened, capped = gas.capped;
   gas.careful = false;
   constexpr int most_attempts = 3;
   for (int attempt = 1; !try_step(gas, dt, domain); ++attempt) {
-    gas.flattened = flattened;
+    gas.flattened = flattened, gas.capped = capped;
     clear_step(gas.passages);
     if (attempt == most_attempts) {
       forget_plain_cells(gas);
@@ -204,24 +207,32 @@ Totals totals(const Gas& gas, Domain& domain) {
   return result;
 }
 
-std::vector<Totals> passed(const Gas& gas, Domain& domain) {
-  const std::size_t fluids = gas.fluids.size(), numbers = fluids + 4;
-  std::vector<Totals> result;
-  for (int side = 0; side <= 2 * gas.dimensions(); ++side) {
-    std::vector<double> sums;
-    for (const Passage& p : gas.passages) {
-      if (p.side != side) continue;
-      for (const CompensatedSum& mass : p.mass) sums.push_back(mass.value());
-      for (const CompensatedSum& momentum : p.momentum) sums.push_back(momentum.value());
-      sums.push_back(p.energy.value());
-    }
-    const std::vector<double> total = sum_of_ranks(sums, numbers, domain);
-    Totals through;
-    through.mass.assign(total.begin(), total.begin() + static_cast<std::ptrdiff_t>(fluids));
-    for (std::size_t a = 0; a < 3; ++a) through.momentum[a] = total[fluids + a];
-    through.energy = total[fluids + 3];
-    result.push_back(through);
+namespace {
+
+/// What the passages of one side have booked.
+Totals through(const Gas& gas, int side, Domain& domain) {
+  const std::size_t fluids = gas.fluids.size();
+  std::vector<double> sums;
+  for (const Passage& p : gas.passages) {
+    if (p.side != side) continue;
+    for (const CompensatedSum& mass : p.mass) sums.push_back(mass.value());
+    for (const CompensatedSum& momentum : p.momentum) sums.push_back(momentum.value());
+    sums.push_back(p.energy.value());
   }
+  const std::vector<double> total = sum_of_ranks(sums, fluids + 4, domain);
+  Totals result;
+  result.mass.assign(total.begin(), total.begin() + static_cast<std::ptrdiff_t>(fluids));
+  for (std::size_t a = 0; a < 3; ++a) result.momentum[a] = total[fluids + a];
+  result.energy = total[fluids + 3];
+  return result;
+}
+
+}  // namespace
+
+std::vector<Totals> passed(const Gas& gas, Domain& domain) {
+  const std::size_t fluids = gas.fluids.size();
+  std::vector<Totals> result;
+  for (int side = 0; side <= 2 * gas.dimensions(); ++side) result.push_back(through(gas, side, domain));
   for (const MovingBody& body : gas.bodies.all) {
     Totals received{std::vector<double>(fluids, 0.0), {}, -body.work.value(), 0.0};
     for (std::size_t a = 0; a < 3; ++a) received.momentum[a] = -body.impulse[a].value();
@@ -237,9 +248,18 @@ std::vector<Totals> passed(const Gas& gas, Domain& domain) {
   return result;
 }
 
+std::vector<Totals> burned(const Gas& gas, Domain& domain) {
+  std::vector<Totals> result;
+  for (std::size_t n = 0; n < gas.burns.size(); ++n)
+    result.push_back(through(gas, first_burn_side + static_cast<int>(n), domain));
+  return result;
+}
+
 std::size_t Gas::bytes() const {
   std::size_t sum = swept.capacity() * sizeof(Lanes) + face_laws.capacity() * sizeof(FaceLaw);
-  for (const CellSet* set : {&content, &moved, &next, &primitive, &half_step, &transport, &unknown}) sum += set->bytes();
+  for (const CellSet* set :
+       {&content, &moved, &next, &primitive, &half_step, &transport, &unknown, &burning_area, &filtered, &filtering, &released})
+    sum += set->bytes();
   return sum;
 }
 
@@ -273,6 +293,7 @@ std::vector<double> numbers_of(const Gas& gas) {
     for (const CompensatedSum& momentum : p.momentum) keep(momentum);
     keep(p.energy);
   }
+  numbers.push_back(static_cast<double>(gas.capped));
   const std::vector<double> bodies = numbers_of(gas.bodies);
   numbers.insert(numbers.end(), bodies.begin(), bodies.end());
   return numbers;
@@ -309,6 +330,7 @@ void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
     for (CompensatedSum& momentum : p.momentum) take(momentum);
     take(p.energy);
   }
+  gas.capped = static_cast<std::int64_t>(*next++);
   restore(gas.bodies, next);
   place_bodies(gas, domain);
   share_primitives(gas, gas.time, domain);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "models/equation_of_state/equation_of_state.hpp"
+#include "models/reaction/reaction.hpp"
 #include "simulator/gas/bodies.hpp"
 #include "simulator/gas/cells.hpp"
 #include "simulator/ledger.hpp"
@@ -24,9 +25,10 @@ namespace brisance::simulator::gas {
 /// What one cell, or the world beyond a boundary, is filled with.
 struct Filling {
   int fluid = 0;
-  double density = 0.0;   // kg/m^3
-  double pressure = 0.0;  // Pa
-  Vector velocity{};      // m/s
+  double density = 0.0;      // kg/m^3
+  double pressure = 0.0;     // Pa
+  Vector velocity{};         // m/s
+  double temperature = 0.0;  // K, of a fluid whose pressure tells nothing of it; 0: that of its law
 };
 using FillingFunction = std::function<Filling(const Vector& position, double time)>;
 
@@ -50,6 +52,20 @@ struct Fluid {
   double least_pressure = -1e300;                  // Pa, at T = 0 and any density
   double viscosity = 0.0, bulk_viscosity = 0.0;    // Pa s
   double conductivity = 0.0;                       // W/(m K)
+};
+
+/// Where, and from when on: a surface burns there however cold it is; a programmed detonation starts there.
+struct Ignition {
+  ShapePointer region;  // absent: everywhere
+  double time = 0.0;    // s
+};
+
+/// A fluid that turns into another by a law.
+struct Burn {
+  std::string name;
+  int reactant = 0, product = 1;  // fluids
+  Reaction law;
+  std::vector<Ignition> ignitions;
 };
 
 /// Content of a cell, per whole cell, radian or steradian (see Metric). With one fluid its volume and energy are not kept.
@@ -120,14 +136,18 @@ struct ClassicState {
 };
 
 /// Where the time of a step goes.
-enum class Phase { half_step, lagrangian, remap, equilibrium, ghosts, count };
+enum class Phase { half_step, lagrangian, reaction, remap, equilibrium, ghosts, count };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names{
-    "half step", "Lagrangian phase", "remap", "equilibrium", "ghosts, halo, books"};
+    "half step", "Lagrangian phase", "reaction", "remap", "equilibrium", "ghosts, halo, books"};
+
+/// What a reaction has burned within one block is kept as a passage, too: of a side with this number and those after it.
+inline constexpr int first_burn_side = 100;
 
 struct Gas {
   Cells cells;
   std::vector<Fluid> fluids;
   std::vector<Edge> edges;  // low x, high x, low y, ...
+  std::vector<Burn> burns;
   Vector gravity{};
   double courant = 0.0;      // 0: what the geometry allows
   double least_mach = 1e-3;  // below, the dissipation of the faces falls no further with the Mach number
@@ -147,6 +167,9 @@ struct Gas {
   std::vector<Passage> passages;                        // in Morton order of the blocks
   std::vector<std::array<std::int32_t, 7>> passage_of;  // of each block and side, and of gravity; -1: none
 
+  CellSet burning_area, filtered, filtering, released;  // scratch of reactions with a surface
+  std::vector<std::int32_t> book_of_burn;               // passage of each block and reaction
+
   double time = 0.0;  // s
   std::int64_t step = 0;
   Totals initial;
@@ -158,6 +181,7 @@ struct Gas {
   bool careful = false;        // some cells do without slopes in this step, or it would leave them without volume or heat
   std::int64_t plain = 0;      // how often cells of this process did
   Bodies bodies;               // solids in the gas
+  std::int64_t capped = 0;     // cells times steps in which less has burned than the law wanted
 
   bool empty() const { return fluids.empty(); }
   int dimensions() const { return cells.dimensions; }
@@ -198,6 +222,8 @@ Totals totals(const Gas& gas, Domain& domain);
 /// What has come through each side of the box since the start, then by gravity, then by each body, and what bodies have
 /// entrapped: mass, impulse, energy (its kinetic part stays 0).
 std::vector<Totals> passed(const Gas& gas, Domain& domain);
+/// What each reaction has made of each fluid since the start (negative: used up), and the heat that it has set free.
+std::vector<Totals> burned(const Gas& gas, Domain& domain);
 
 /// Everything that a checkpoint has to keep, and back. `restore` throws std::runtime_error if it is of another gas.
 std::vector<double> numbers_of(const Gas& gas);

@@ -45,6 +45,12 @@ Gas make_gas(const Case& c, Domain& domain) {
       beyond = filling_of(config, gas.fluids, edge);
     made.beyond = [beyond](const Vector&, double) { return beyond; };
   }
+  for (const ReactionConfig& reaction : config.reactions) {
+    Burn burn{reaction.name, number_of(config, reaction.reactant), number_of(config, reaction.product), {}, {}};
+    burn.law = *config.fluids[static_cast<std::size_t>(burn.reactant)].material.material.reaction;
+    for (const IgnitionConfig& ignition : reaction.ignitions) burn.ignitions.push_back({ignition.shape, ignition.time});
+    gas.burns.push_back(std::move(burn));
+  }
   const InitialState start(config, gas.fluids, gas.cells);
   fill_in_portions(
       gas, [&](const Vector& middle) { return start.in_cell(middle); }, domain);

@@ -108,4 +108,16 @@ void share_moved(Gas& gas, double time, const Vector& moved, Domain& domain) {
   });
 }
 
+void share_scalars(const Gas& gas, CellSet& set, Beyond beyond, Domain& domain) {
+  constexpr int no_component = -10;
+  share(gas.cells, set, domain);
+  if (beyond == Beyond::nothing) {
+    for (const GhostSide& side : gas.cells.sides)
+      for (const Ghost& g : side.nearest)
+        for (int q = 0; q < set.quantities(); ++q) set.cell(index(g.block), q, g.cell) = 0.0;
+    return;
+  }
+  fill_ghosts(gas, set, no_component, [&](const Edge&, const GhostSide& side) { copy(set, side.nearest, -1); });
+}
+
 }  // namespace brisance::simulator::gas

@@ -13,4 +13,9 @@ void share_half_step(Gas& gas, double dt, Domain& domain);
 /// long the cells have moved along it.
 void share_moved(Gas& gas, double time, const Vector& moved, Domain& domain);
 
+/// Halo and ghosts of quantities without a direction, such as a fluid's part of the volume; beyond an edge they are as next to
+/// it, or nothing beyond any side.
+enum class Beyond { continued, nothing };
+void share_scalars(const Gas& gas, CellSet& set, Beyond beyond, Domain& domain);
+
 }  // namespace brisance::simulator::gas

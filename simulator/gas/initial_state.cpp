@@ -16,12 +16,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-int number_of(const GasConfig& config, const std::string& fluid) {
-  int number = 0;
-  while (config.fluids[static_cast<std::size_t>(number)].name != fluid) ++number;
-  return number;
-}
-
 /// Volume of the part of a cell between two values of x, over what a part of a straight cell has.
 double widened(Geometry geometry, double low, double high) {
   const double middle = 0.5 * (low + high);
@@ -31,10 +25,17 @@ double widened(Geometry geometry, double low, double high) {
 
 }  // namespace
 
+int number_of(const GasConfig& config, const std::string& fluid) {
+  int number = 0;
+  while (config.fluids[static_cast<std::size_t>(number)].name != fluid) ++number;
+  return number;
+}
+
 Filling filling_of(const GasConfig& config, const std::vector<Fluid>& fluids, const GasStateConfig& state) {
   Filling filling;
   filling.fluid = number_of(config, state.fluid);
   filling.pressure = state.pressure.value_or(0.0), filling.velocity = state.velocity;
+  filling.temperature = state.temperature.value_or(0.0);
   if (state.density) filling.density = *state.density;
   if (state.temperature)
     filling.density = equation_of_state::density_at(fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state,

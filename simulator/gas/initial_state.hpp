@@ -51,6 +51,8 @@ class InitialState {
   const Cells* cells_;
 };
 
+/// Which of the fluids has a name.
+int number_of(const GasConfig& config, const std::string& fluid);
 /// A state as the case gives it; `fluids` are those of the gas.
 Filling filling_of(const GasConfig& config, const std::vector<Fluid>& fluids, const GasStateConfig& state);
 

@@ -31,6 +31,7 @@ gas::Totals GasBooks::residual() const {
   };
   take(initial);
   for (const auto& [name, through] : entries) take(through);
+  for (const ReactionBook& reaction : reactions) take(reaction.made);
   return sum;
 }
 
@@ -50,6 +51,12 @@ GasBooks gas_books_of(const Simulation& s) {
   const std::vector<gas::Totals> passed = gas::passed(s.gas, *s.domain);
   for (std::size_t e = 0; e < passed.size(); ++e)
     books.entries.emplace_back(e < s.gas.edges.size() ? s.gas.edges[e].name : "gravity", scaled(passed[e]));
+  const std::vector<gas::Totals> burned = gas::burned(s.gas, *s.domain);
+  for (std::size_t n = 0; n < burned.size(); ++n) {
+    const gas::Burn& burn = s.gas.burns[n];
+    const gas::Totals made = scaled(burned[n]);
+    books.reactions.push_back({burn.name, -made.mass[static_cast<std::size_t>(burn.reactant)], made});
+  }
   return books;
 }
 
@@ -70,6 +77,10 @@ std::vector<BookEntry> entries_of(const GasBooks& books, Geometry geometry) {
   entries.push_back({"gas_kinetic_energy", energy, books.state.kinetic});
   for (const auto& [name, through] : books.entries)
     if (name != "gravity" || through.energy != 0.0 || through.momentum != Vector{}) add(name, through, "impulse");
+  for (const ReactionBook& reaction : books.reactions) {
+    entries.push_back({reaction.name + "_burned_mass", "kg", reaction.burned});
+    entries.push_back({reaction.name + "_heat", "J", reaction.made.energy});
+  }
   add("gas_residual", books.residual(), "momentum");
   return entries;
 }

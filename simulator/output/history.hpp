@@ -19,14 +19,22 @@ struct BodyBooks {
   InternalEnergy internal;
 };
 
+/// What a reaction has done since the start.
+struct ReactionBook {
+  std::string name;
+  double burned = 0.0;  // kg
+  gas::Totals made;     // of each fluid, and the heat that it has set free
+};
+
 /// What the gas holds, and what has come in since the start: through each edge and by gravity.
 struct GasBooks {
   std::vector<std::string> fluids;
   gas::Totals state, initial;
   std::vector<std::pair<std::string, gas::Totals>> entries;
   std::int64_t plain = 0, flattened = 0;  // as in Gas, of this process
+  std::vector<ReactionBook> reactions;
 
-  /// What the gas holds now that it neither held at the start nor received.
+  /// What the gas holds now that it neither held at the start nor received, nor made by reaction.
   gas::Totals residual() const;
 };
 

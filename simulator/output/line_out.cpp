@@ -19,7 +19,7 @@ namespace {
 struct Line {
   explicit Line(const FigureConfig& figure) : from(figure.from), direction(figure.to - figure.from) {
     length = std::sqrt(dot(direction, direction));
-    direction = (1.0 / length) * direction;
+    for (double& d : direction) d /= length;  // exactly 1 along an axis
     for (std::size_t a = 0; a < 3; ++a)
       if (std::abs(direction[a]) == 1.0) axis = static_cast<int>(a);
   }

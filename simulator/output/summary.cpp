@@ -28,6 +28,8 @@ std::string gas_in_words(const Books& all) {
   row("at the start", books.initial), row("now", books.state);
   for (const auto& [name, through] : books.entries)
     if (through.energy != 0.0) row("by " + name, through);
+  for (const ReactionBook& reaction : books.reactions)
+    text += fmt::format("  {:24} {:14.6g} {:14.6g}\n", "burned by " + reaction.name, reaction.burned, reaction.made.energy);
   row("in no book", books.residual());
   if (books.plain + books.flattened > 0)
     text += fmt::format("  for the sake of positive energies {} cell-steps were first order, {} slopes flatter\n", books.plain,

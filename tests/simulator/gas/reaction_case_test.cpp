@@ -1,0 +1,76 @@
+// Reactions of the gas through case files: what they ask for, what they are told, runs and restarts.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "simulator/case_reader.hpp"
+#include "simulator/output/run_directory.hpp"
+#include "simulator/run.hpp"
+#include "simulator/setup.hpp"
+#include "tests/command_line.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+fs::path shipped(const std::string& name) {
+  return fs::path(BRISANCE_SOURCE_DIR) / "data/cases" / (name + ".toml");
+}
+
+std::string problems_of(const std::vector<std::string>& changes) {
+  try {
+    read_case(shipped("detonation_pbx_9501"), changes);
+    return "";
+  } catch (const InputError& error) {
+    std::string all;
+    for (const Problem& p : error.problems()) all += p.key + ": " + p.what + '\n';
+    return all;
+  }
+}
+
+TEST(ReactionCase, RunsStopsAndGoesOnWithTheSameBits) {
+  const fs::path directory = scratch();
+  const Case c = read_case(shipped("detonation_pbx_9501"), {"cell_size=0.5 mm", "gas.fill.1.shape.box.upper=[\"4 mm\"]",
+                                                            "end_time=3 us", "output.figures=false"});
+  const auto fresh = [&](const std::string& name) {
+    prepare_directory(directory / name, c, false);
+    return directory / name;
+  };
+  Simulation whole = set_up(c);
+  const RunResult uninterrupted = run(c, whole, {fresh("whole"), {}});
+  ASSERT_EQ(uninterrupted.ending, Ending::done) << uninterrupted.message;
+  const fs::path parts = fresh("parts");
+  Simulation first = set_up(c), second = set_up(c);
+  EXPECT_EQ(run(c, first, {parts, {}, 31}).ending, Ending::interrupted);
+  EXPECT_EQ(resume(c, second, {parts, {}}).ending, Ending::done);
+  EXPECT_TRUE(gas::numbers_of(second.gas) == gas::numbers_of(whole.gas));
+  EXPECT_EQ(text_of(parts / "history.csv"), text_of(directory / "whole" / "history.csv"));
+  const std::string history = text_of(parts / "history.csv");
+  for (const char* column : {"detonation_burned_mass [kg]", "detonation_heat [J]"})
+    EXPECT_TRUE(contains(history, column)) << column;
+  EXPECT_TRUE(contains(in_words(uninterrupted.summary), "burned by detonation"));
+}
+
+TEST(ReactionCase, WritesWhatItReads) {
+  const Case c = read_case(shipped("closed_bomb"), {});
+  const fs::path file = scratch() / "copy.toml";
+  std::ofstream(file) << write_case(c);
+  const Case again = read_case(file, {});
+  EXPECT_EQ(write_case(again), write_case(c));
+  ASSERT_EQ(again.gas->reactions.size(), 1u);
+  EXPECT_EQ(again.gas->reactions[0].ignitions.size(), c.gas->reactions[0].ignitions.size());
+}
+
+TEST(ReactionCase, IsToldWhatIsWrongWithIt) {
+  const std::string key = "gas.reaction.0.";
+  EXPECT_TRUE(contains(problems_of({key + "reactant=\"explosve\""}), "there is no fluid \"explosve\""));
+  EXPECT_TRUE(contains(problems_of({key + "product=\"air\""}), "there is no fluid \"air\""));
+  EXPECT_TRUE(contains(problems_of({key + "product=\"explosive\""}), "cannot burn to itself"));
+  EXPECT_TRUE(contains(problems_of({key + "reactant=\"products\"", key + "product=\"explosive\""}), "has no [reaction] table"));
+  EXPECT_TRUE(contains(problems_of({key + "ignition=[{time = 0.0}]"}), "burns by pressure alone"));
+  EXPECT_TRUE(contains(problems_of({key + "rate=1"}), "unknown key"));
+  EXPECT_EQ(problems_of({}), "");
+}
+
+}  // namespace
+}  // namespace brisance::simulator
