@@ -1,20 +1,8 @@
 #include "simulator/output/extensive.hpp"
 
-#include <numbers>
+#include <array>
 
 namespace brisance::simulator {
-
-double whole_of(Geometry geometry) {
-  switch (geometry) {
-    case Geometry::axisymmetric:
-    case Geometry::cylindrical_1d:
-      return 2.0 * std::numbers::pi;
-    case Geometry::spherical_1d:
-      return 4.0 * std::numbers::pi;
-    default:
-      return 1.0;
-  }
-}
 
 Unit unit_of(Extensive quantity, Geometry geometry) {
   using Units = std::array<Unit, 4>;  // of mass, energy, momentum, angular momentum

@@ -11,9 +11,6 @@ namespace brisance::simulator {
 
 enum class Extensive { mass, energy, momentum, angular_momentum };
 
-/// From what the particles and cells of round geometries carry, per radian or steradian, to what is shown.
-double whole_of(Geometry geometry);
-
 /// The unit of what is shown, "J/m".
 Unit unit_of(Extensive quantity, Geometry geometry);
 
