@@ -493,7 +493,7 @@ class CaseReader : public KeyReader<CaseReader> {
   void check_profile(TableReader& in, const ProfileConfig& profile, Elsewhere& elsewhere) {
     const bool radius = profile.along == ProfileAlong::radius;
     if (!radius && static_cast<std::size_t>(profile.along) >= dimensions())
-      in.problem("profile", fmt::format("there is no {} in this geometry",
+      in.problem("profile", fmt::format("there is no {} in this geometry; give a coordinate that it has, or radius",
                                         choices<ProfileAlong>[static_cast<std::size_t>(profile.along)]));
     if (!radius && profile.centre != Vector{}) in.problem("profile", "its centre would be ignored: it is not along radius");
     if (is_round(case_.geometry) && profile.centre[0] != 0.0) in.problem("profile", "its centre lies on the axis; give r = 0");

@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -12,6 +16,7 @@
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "tests/command_line.hpp"
 #include "tests/simulator/gas/set_up.hpp"
+#include "tests/simulator/virtual_ranks.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -150,8 +155,7 @@ TEST(UncutCells, AreFilledAsByTheirMiddles) {
   EXPECT_TRUE(numbers_of(gas) == numbers_of(by_middles));
 }
 
-// Profiles
-// -----------------------------------------------------------------------------------------------------------------------
+// Profiles ------------------------------------------------------------------------------------------------------------
 
 FillConfig with_profile(FillConfig fill, const std::string& text, ProfileAlong along, const Vector& centre = {}) {
   fill.profile = ProfileConfig{write_text(scratch() / "profile.csv", text), along, centre};
@@ -221,8 +225,7 @@ TEST(Profile, OfPressureWithATemperatureGivesTheDensity) {
   set_up::for_each_cell(gas, [&](const set_up::Cell& c) { EXPECT_NEAR(c.density, c.pressure / (0.4 * 718.0 * 250.0), 1e-9); });
 }
 
-// Energies
-// -----------------------------------------------------------------------------------------------------------------------
+// Energies ------------------------------------------------------------------------------------------------------------
 
 TEST(Energy, PutIntoABallIsThereToRoundOff) {
   constexpr double energy = 5e4, rounding = 1e-12;
@@ -246,8 +249,33 @@ TEST(Energy, OutsideTheBoxIsRefused) {
                std::runtime_error);
 }
 
-// What it is good for
-// ------------------------------------------------------------------------------------------------------------
+TEST(InitialState, HasTheSameBitsOnAnyNumberOfRanks) {
+  FillConfig blast = fill_of("air", 1.0, 0.0);
+  blast.pressure.reset(), blast.energy = 5e4;
+  const Vector middle = {0.51, 0.47, 0.0};
+  const std::vector<FillConfig> fills = {
+      with_profile(velocity_only(), "radius [m],velocity_around [m/s]\n0,0\n1,20\n", ProfileAlong::radius, middle),
+      in_sphere(fill_of("water", 1000.0, 1e6), middle, radius), in_sphere(blast, middle, 0.2)};
+  using Bits = std::map<std::array<int, 3>, std::vector<std::uint64_t>>;
+  const auto on = [&](int ranks) {
+    Bits bits;
+    std::mutex one_at_a_time;
+    VirtualRanks::run(ranks, [&](std::shared_ptr<Domain> domain) {
+      const Gas gas = filled(Geometry::plane, {air, water}, fills, *domain);
+      const std::lock_guard lock(one_at_a_time);
+      set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
+        for (int q = 0; q < gas.contents(); ++q)
+          bits[c.index].push_back(std::bit_cast<std::uint64_t>(gas.content.cell(c.block, q, c.number)));
+      });
+    });
+    return bits;
+  };
+  const Bits one = on(1);
+  EXPECT_EQ(one.size(), static_cast<std::size_t>(cells_across * cells_across));
+  for (const int ranks : {2, 3}) EXPECT_TRUE(on(ranks) == one) << ranks << " ranks";
+}
+
+// What it is good for -------------------------------------------------------------------------------------------------
 
 /// Root mean square, over circles, of the deviation of the density from its mean on the circle.
 double anisotropy(const Gas& gas) {

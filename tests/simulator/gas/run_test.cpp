@@ -75,6 +75,9 @@ TEST(GasRun, FindsItsProfileWhereverItsDirectoryIs) {
     all.insert(all.end(), words.begin(), words.end());
     return call_program(run_command_line, all);
   };
+  const Answer check = call({"check", (elsewhere / "entropy_wave.toml").string()});
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_TRUE(contains(check.out, "100 cells")) << check.out;
   // The reference of the figure is the same file, and stays where it is.
   const Answer ran =
       call({"run", (elsewhere / "entropy_wave.toml").string(), "-o", (directory / "run").string(), "--set", "cell_size=0.1",
