@@ -60,7 +60,7 @@ int compare(const std::filesystem::path& directory) {
   Panel density{.title = "400 cells", .x_label = "x", .y_label = "density"};
   density.x_range = {0.65, 0.85};
   Panel velocity{.title = "400 cells", .x_label = "x", .y_label = "velocity"};
-  velocity.x_range = {0.4, 0.85}, velocity.legend = "bottom right";
+  velocity.x_range = {0.4, 0.85}, velocity.legend = "left center";
   const ExactRiemann exact(left, right);
   for (const auto& [panel, what] : {std::pair{&density, &GasState::density}, {&velocity, &GasState::velocity}}) {
     Curve truth{"exact", {}, {}, Mark::line, 2};

@@ -528,6 +528,25 @@ class CaseReader : public KeyReader<CaseReader> {
       in.problem("a state would be ignored: nothing comes through a wall or from beyond a period");
     }
   }
+  /// Nothing is said of viscosity and heat that would go unheard.
+  void check_transport(TableReader& in, const GasConfig& gas) {
+    const auto any_fluid = [&](double FluidConfig::*property) {
+      return std::any_of(gas.fluids.begin(), gas.fluids.end(), [&](const FluidConfig& f) { return f.*property > 0.0; });
+    };
+    if (gas.heat_exchange > 0.0 && gas.fluids.size() == 1)
+      in.problem("heat_exchange", "it would be ignored: there is one fluid; remove it");
+    for (const EdgeConfig& edge : gas.edges) {
+      if (edge.kind != EdgeKind::no_slip) continue;
+      const std::string_view side = choices<BoxSide>[static_cast<std::size_t>(edge.side)];
+      if (!any_fluid(&FluidConfig::viscosity))
+        in.problem(
+            "edge",
+            fmt::format("{}: nothing sticks to a wall without viscosity; give a fluid one, or leave the edge out", side));
+      if (edge.temperature && !any_fluid(&FluidConfig::conductivity))
+        in.problem("edge",
+                   fmt::format("{}: its temperature would be ignored: no fluid conducts; give one a conductivity", side));
+    }
+  }
   /// The limits of simulator/gas/classic.hpp.
   void check_classic(TableReader& in, const GasConfig& gas) {
     const auto refuse = [&](bool when, std::string_view reason) {
@@ -603,6 +622,7 @@ class CaseReader : public KeyReader<CaseReader> {
       in.problem("momentum_exchange",
                  "it would be ignored: fluids of a cell have one velocity but with scheme = \"ice_classic\"");
     if (gas.scheme == GasScheme::ice_classic) check_classic(in, gas);
+    check_transport(in, gas);
     const bool round = is_round(case_.geometry);
     if (round && gas.lower[0] < 0.0) in.problem("lower", "r = " + in_metres(gas.lower[0]) + "; a radius is not negative");
     if (round && case_.gravity[0] != 0.0) in.problem("lower", "gravity along r is not possible");

@@ -52,6 +52,12 @@ std::vector<Field> fields(int dimensions, const std::vector<std::string>& fluids
        [](const Gas& g, const CellPlace& at, int) { return primitive(g, at, Primitive::pressure); }},
       {"velocity", "m/s", "velocity", dimensions,
        [](const Gas& g, const CellPlace& at, int a) { return primitive(g, at, Primitive::velocity + a); }},
+      {"speed", "m/s", "magnitude of the velocity", 1,
+       [](const Gas& g, const CellPlace& at, int) {
+         double square = 0.0;
+         for (int a = 0; a < g.dimensions(); ++a) square += std::pow(primitive(g, at, Primitive::velocity + a), 2);
+         return std::sqrt(square);
+       }},
       {"temperature", "K", "temperature of the fluid that fills most", 1,
        [](const Gas& g, const CellPlace& at, int) { return temperature_of(g, at); }},
       {"energy", "J/kg", "specific internal energy", 1,

@@ -17,7 +17,7 @@ struct Field {
   std::function<double(const Gas& gas, const CellPlace& at, int component)> read;
 };
 
-/// density, pressure, velocity, temperature, energy, sound_speed; of several fluids also their fractions of the volume.
+/// density, pressure, velocity, speed, temperature, energy, sound_speed; of several fluids also their fractions of the volume.
 std::vector<Field> fields(int dimensions, const std::vector<std::string>& fluids);
 std::vector<Field> fields_of(const Gas& gas);
 

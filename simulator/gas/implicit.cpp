@@ -2,6 +2,7 @@
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <stdexcept>
 
 #include "simulator/gas/acoustic.hpp"
@@ -12,11 +13,17 @@
 namespace brisance::simulator::gas {
 namespace {
 
-constexpr double centring = 0.5;
 constexpr double solver_tolerance = 1e-9;  // residual over right side
 
 using Entry = Eigen::Triplet<double, int>;
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+
+/// Where in the step the pressures are: in the middle, and a little later in steps so long that sound is not resolved, for then
+/// nothing else would make it fade.
+double centring(const Gas& gas, double dt) {
+  constexpr double later = 0.02;
+  return 0.5 + later * std::clamp(dt * gas.wave_rate - 1.0, 0.0, 1.0);
+}
 
 /// What a face's law and its pressure are made of.
 struct FaceStates {
@@ -42,7 +49,7 @@ Lanes bearable(const Gas& gas, const Lanes& sound, double dt) {
 
 template <int D>
 void find_laws(Gas& gas, std::size_t block, double dt) {
-  const double h = gas.cells.cell_size;
+  const double h = gas.cells.cell_size, part_of_step = centring(gas, dt) * dt;
   for (int axis = 0; axis < D; ++axis) {
     const double g = gas.gravity[static_cast<std::size_t>(axis)], half_head = 0.5 * g * h;
     for (int n = 0; n < BlockShape<D>::pencils; ++n) {
@@ -58,8 +65,8 @@ void find_laws(Gas& gas, std::size_t block, double dt) {
         const Lanes both = s.density[l] + s.density[r];
         const Lanes part = bearable<D>(gas, max(s.sound[l], s.sound[r]), dt);
         laws[f].free = (s.density[l] * L.velocity + s.density[r] * R.velocity) / both +
-                       part * waves.sum * (L.pressure - R.pressure) + centring * dt * g;
-        laws[f].yield = (2.0 * centring * dt / h) / both;
+                       part * waves.sum * (L.pressure - R.pressure) + part_of_step * g;
+        laws[f].yield = (2.0 * part_of_step / h) / both;
       }
       for_each_passage(gas, block, axis, n, [&](Passage& passage, double sign, std::uint8_t) {
         const auto f = static_cast<std::size_t>(passage.face);
@@ -92,7 +99,7 @@ void find_laws(Gas& gas, std::size_t block, double dt) {
 /// The rows of a block's cells.
 template <int D>
 void assemble(const Gas& gas, std::size_t block, double dt, std::vector<Entry>& entries, Eigen::VectorXd& right_side) {
-  const double weight = centring * dt;
+  const double weight = centring(gas, dt) * dt;
   for (int axis = 0; axis < D; ++axis)
     for (int n = 0; n < BlockShape<D>::pencils; ++n) {
       Pencil unknown, density, sound, pressure, change;
@@ -111,10 +118,11 @@ void assemble(const Gas& gas, std::size_t block, double dt, std::vector<Entry>& 
       }
       for (std::size_t c = ring; c < ring + line; ++c) {
         const std::size_t f = c - ring;
+        const LanesMask inside = lanes_inside<D>(gas.cells, block, axis, n, static_cast<int>(f));
         const Lanes stiffness = metric.volume[c] / (density[c] * sound[c] * sound[c]);
         for (int l = 0; l < 8; ++l) {
+          if (!inside[l]) continue;
           const int row = static_cast<int>(unknown[c][l]);
-          if (row < 0) continue;
           double diagonal = conductance[f][l] + conductance[f + 1][l], known = flow[f][l] - flow[f + 1][l];
           if (axis == 0) diagonal += stiffness[l];
           const auto neighbour = [&](std::size_t cell, double coefficient) {

@@ -366,7 +366,18 @@ INSTANTIATE_TEST_SUITE_P(
         HostileGas{"fraction_air", "fraction_water", "\"fraction_water\" is not known of gas"},
         HostileGas{"from = [\"20 mm\"", "from = [\"25 mm\"", "along x it leaves the box of the gas"},
         HostileGas{"[gas]\n", "[[boundary]]\nkind = \"symmetry\"\naxis = \"x\"\nposition = 0\nside = \"above\"\n[gas]\n",
-                   "boundary: it would be ignored: there are no solids"}));
+                   "boundary: it would be ignored: there are no solids"},
+        HostileGas{"courant = 0.4\n", "acoustic_courant = 5\n", "it is the Courant number of implicit = true"},
+        HostileGas{"courant = 0.4\n", "courant = 0.4\nimplicit = true\n", "the steps of implicit = true are those of acoustic"},
+        HostileGas{"courant = 0.4\n", "momentum_exchange = 5\n", "have one velocity but with scheme = \"ice_classic\""},
+        HostileGas{"courant = 0.4\n", "scheme = \"ice_classic\"\n", "ice_classic has no gravity; remove it"},
+        HostileGas{"courant = 0.4\n", "scheme = \"ice_classic\"\n", "ice_classic has walls and periodic sides only"},
+        HostileGas{"kind = \"non_reflecting\"", "kind = \"no_slip\"", "of a wall only its velocity and temperature count"},
+        HostileGas{"kind = \"non_reflecting\"\nfluid = \"air\"\ntemperature = \"300 K\"\npressure = \"1 atm\"",
+                   "kind = \"no_slip\"\nvelocity = [1, 0]", "a wall moves along itself only"},
+        HostileGas{"kind = \"non_reflecting\"\nfluid = \"air\"\ntemperature = \"300 K\"\npressure = \"1 atm\"",
+                   "kind = \"no_slip\"\ntemperature = \"300 K\"", "nothing sticks to a wall without viscosity"},
+        HostileGas{"material = \"air.toml\"", "material = \"air.toml\"\nviscosity = \"1 m\"", "viscosity"}));
 
 TEST(CaseReader, AWrittenCaseReadsBackToTheSame) {
   for (const std::string& text : {bar, everything, burning}) {

@@ -174,6 +174,31 @@ TEST(ClassicScheme, CarriesTwoFluidsAtOneVelocity) {
   EXPECT_LT(slip, 1e-9);
 }
 
+TEST(ClassicScheme, KeepsMassAndBooksThePushOfWalls) {
+  for (const Geometry geometry : {Geometry::planar_1d, Geometry::plane, Geometry::three_dimensional}) {
+    const auto domain = single_process();
+    Gas gas = set_up::box(geometry, 0.1, {}, {14, 12, 10},
+                          {set_up::ideal_gas(1.4), {"other", equation_of_state::IdealGas{1.6, 1.0}}}, *domain);
+    gas.classic.emplace();
+    fill(
+        gas,
+        [](const Vector& x, double) {
+          return x[0] < 0.6 && x[1] < 0.5 ? Filling{1, 4.0, 3.0, {0.5, 0.1, -0.2}} : Filling{0, 1.0, 1.0, {}};
+        },
+        *domain);
+    const Totals before = totals(gas, *domain);
+    Stepper{.courant = 0.4}.steps(gas, 40, *domain);
+    const Totals after = totals(gas, *domain);
+    for (std::size_t r = 0; r < 2; ++r) EXPECT_LT(set_up::relative_change(before.mass[r], after.mass[r]), 1e-13);
+    const std::vector<Totals> walls = passed(gas, *domain);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(gas.dimensions()); ++a) {
+      double impulse = before.momentum[a], scale = 0.0;
+      for (const Totals& wall : walls) impulse += wall.momentum[a], scale += std::abs(wall.momentum[a]);
+      EXPECT_NEAR(after.momentum[a], impulse, 1e-13 * scale);
+    }
+  }
+}
+
 TEST(ClassicScheme, GoesOnAfterARestartAsWithoutIt) {
   const auto domain = single_process();
   const auto start = [&] {

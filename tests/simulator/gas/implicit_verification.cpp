@@ -200,6 +200,36 @@ TEST(ImplicitBox, OfTwoFluidsKeepsMassMomentumAndEnergyInEveryGeometry) {
   }
 }
 
+/// A box without ends has no place: what happens in it does not depend on where the blocks of the cells begin.
+TEST(ImplicitBox, WithoutEndsIsTheSameAnywhere) {
+  constexpr int cells = 12, steps = 20;
+  constexpr double height = 1e-2;
+  std::vector<std::vector<double>> pressures;
+  for (const int lower : {0, 3, -7}) {
+    const auto domain = single_process();
+    Gas gas = implicit_box(Geometry::plane, 1.0, {lower, lower, 0}, {lower + cells, lower + cells, 0}, {set_up::ideal_gas()},
+                           20.0, *domain);
+    gas.edges.assign(4, set_up::around());
+    fill(
+        gas,
+        [&](const Vector& x, double) {
+          const double wave =
+              height * std::sin(2.0 * M_PI * (x[0] - lower) / cells) * std::cos(2.0 * M_PI * (x[1] - lower) / cells);
+          return Filling{0, 1.0 + wave, 1.0 + 1.4 * wave, {0.1, 0.2, 0.0}};
+        },
+        *domain);
+    Stepper().steps(gas, steps, *domain);
+    std::vector<double> all(static_cast<std::size_t>(cells * cells));
+    set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
+      all[static_cast<std::size_t>(c.index[0] - lower + cells * (c.index[1] - lower))] = c.pressure;
+    });
+    pressures.push_back(all);
+  }
+  constexpr double tolerance = 1e-7 * height;  // of the solver: 1e-9 a step
+  for (const std::vector<double>& other : {pressures[1], pressures[2]})
+    for (std::size_t i = 0; i < other.size(); ++i) EXPECT_NEAR(other[i], pressures[0][i], tolerance) << i;
+}
+
 TEST(ImplicitColumn, OfIsothermalGasStaysAtRest) {
   constexpr double h = 50.0, gravity = 9.81, thermal = 0.4 * 250.0 * 718.0;  // m, m/s^2, p/rho
   const double half = -0.5 * gravity * h / thermal, ratio = (1.0 + half) / (1.0 - half);
