@@ -69,6 +69,12 @@ class Traveller {
     double dt;
     ControlledStep result;
   };
+  /// Where a step begins.
+  struct Place {
+    const State<double>& state;
+    double time;
+  };
+  Place here() const { return {state_, time_}; }
 
   void follow_segment(const PathSegment& segment) {
     set_temperature(segment.temperature.value_or(state_.temperature) + segment.temperature_jump);
@@ -76,6 +82,7 @@ class Traveller {
     for (const FreeDirection& f : segment.free) start_.targets.push_back(double_dot(f.stress_weight, state_.stress));
     require_reachable_targets(segment);
     warm_ = {};
+    trusted_ = 0, wanted_ = 0.0;
     const Column* watched = nullptr;
     if (segment.until)
       watched = &*std::find_if(history_.columns().begin(), history_.columns().end(),
@@ -92,6 +99,7 @@ class Traveller {
       // A last step as long as the others, instead of a sliver.
       const double left = end - time_;
       double tried = std::min(dt, left <= 1.0000001 * dt ? left : (left < 2.0 * dt ? 0.5 * left : dt));
+      if (path_.tolerance > 0.0) tried = accurate_step(segment, tried, left);
       const Step taken = step_with_halving(segment, tried, left);
       tried = taken.dt;
       Step last = taken;
@@ -165,13 +173,13 @@ class Traveller {
     }
   }
 
-  Control control(const PathSegment& segment, double dt) const {
+  Control control(const PathSegment& segment, const Place& from, double dt) const {
     Control control;
     control.velocity_gradient = segment.velocity_gradient;
-    const double progress = segment.duration ? std::min((time_ + dt - start_.time) / *segment.duration, 1.0) : 1.0;
+    const double progress = segment.duration ? std::min((from.time + dt - start_.time) / *segment.duration, 1.0) : 1.0;
     if (segment.deformation_gradient) {
       const Tensor<double> F = start_.F + progress * (*segment.deformation_gradient - start_.F);
-      control.velocity_gradient = (1.0 / dt) * logarithm(F * inverse(state_.deformation_gradient));
+      control.velocity_gradient = (1.0 / dt) * logarithm(F * inverse(from.state.deformation_gradient));
     }
     control.size = static_cast<int>(segment.free.size());
     for (int k = 0; k < control.size; ++k) {
@@ -184,11 +192,50 @@ class Traveller {
     return control;
   }
 
-  /// One attempt from the present state; the present state stays as it is.
-  ControlledStep attempt(const PathSegment& segment, double dt, WarmStart& warm) {
-    State<double> before = state_;
+  /// One attempt; the state that it begins with stays as it is.
+  ControlledStep attempt(const PathSegment& segment, const Place& from, double dt, WarmStart& warm) {
+    State<double> before = from.state;
     if (path_.heat == Heat::prescribed) before.temperature += segment.temperature_rate * dt;
-    return controlled_step(update_, before, control(segment, dt), dt, time_ + dt, warm);
+    return controlled_step(update_, before, control(segment, from, dt), dt, from.time + dt, warm);
+  }
+
+  /// The size of the next step such that two of them come out as one of twice the size would, to the tolerance; the next but
+  /// one is then as large.
+  double accurate_step(const PathSegment& segment, double longest, double left) {
+    if (trusted_ == 0) {
+      constexpr double safety = 0.9, least_shrink = 0.1, most_shrink = 0.5;
+      const double smallest = smallest_step * first_dt(segment);
+      double dt = std::min({longest, 0.5 * left, wanted_ > 0.0 ? wanted_ : longest}), factor = 0.0;
+      for (;; ++outcome_.rejected, dt *= std::clamp(factor, least_shrink, most_shrink)) {
+        const double error = difference_of_halves(segment, dt);
+        // The update is of first order: what one step misses goes with the square of its size.
+        factor = error > 0.0 ? safety * std::sqrt(path_.tolerance / error) : growth;
+        if (error <= path_.tolerance || dt < smallest) break;
+      }
+      trusted_ = 2, trusted_dt_ = dt, wanted_ = std::min(factor, growth) * dt;
+    }
+    --trusted_;
+    constexpr double rounding = 1e-7;  // no sliver is left over at the end
+    return longest <= (1.0 + rounding) * trusted_dt_ ? longest : trusted_dt_;
+  }
+
+  /// Of two steps and one of twice the size; infinite if they cannot be taken.
+  double difference_of_halves(const PathSegment& segment, double dt) {
+    constexpr double cannot = std::numeric_limits<double>::infinity();
+    WarmStart warm = warm_;
+    const ControlledStep whole = attempt(segment, here(), 2.0 * dt, warm);
+    warm = warm_;
+    const ControlledStep first = attempt(segment, here(), dt, warm);
+    if (!whole.converged || !first.converged) return cannot;
+    const State<double> middle = accepted_point(first, segment, here(), dt).state;
+    const ControlledStep second = attempt(segment, {middle, time_ + dt}, dt, warm);
+    if (!second.converged) return cannot;
+    const State<double> a = accepted_point(whole, segment, here(), 2.0 * dt).state,
+                        b = accepted_point(second, segment, {middle, time_ + dt}, dt).state;
+    const double stress_scale = std::max({norm(a.stress), norm(b.stress), 1e-9 * second.point.bulk_modulus});
+    const double strain_scale = std::max(b.plastic_strain, path_.strain_increment);
+    return std::max({norm(a.stress - b.stress) / stress_scale, std::abs(a.temperature - b.temperature) / b.temperature,
+                     std::abs(a.plastic_strain - b.plastic_strain) / strain_scale});
   }
 
   Step step_with_halving(const PathSegment& segment, double dt, double left) {
@@ -196,7 +243,7 @@ class Traveller {
     const double asked = dt, smallest = std::min(smallest_step * first_dt(segment), left);
     ControlledStep result;
     for (; dt >= smallest; dt *= 0.5) {
-      result = attempt(segment, dt, warm_);
+      result = attempt(segment, here(), dt, warm_);
       if (result.converged && norm(result.velocity_gradient) * dt <= slack * path_.strain_increment) return {dt, result};
     }
     throw RunError(fmt::format("{}: no step from {:.3g} s down to {:.3g} s succeeds at {}: {}", segment.where, asked, smallest,
@@ -220,7 +267,7 @@ class Traveller {
   bool shorten_to(const PathSegment& segment, const Column& column, Step& step) {
     const double target = segment.until->value;
     const double before = watched_value(column, point_, time_) - target;
-    const double after = watched_value(column, accepted_point(step.result, segment, step.dt), time_ + step.dt) - target;
+    const double after = watched_value(column, accepted_point(step.result, segment, here(), step.dt), time_ + step.dt) - target;
     if (after == 0.0) return true;
     if (before == 0.0 || (before > 0.0) == (after > 0.0)) return false;
     double low = 0.0, high = step.dt, f_low = before, f_high = after, f = after;
@@ -228,10 +275,10 @@ class Traveller {
     for (int iteration = 0; iteration < 60 && std::abs(f) > tolerance && high - low > 1e-14 * high; ++iteration) {
       const double dt = high - f_high * (high - low) / (f_high - f_low);
       WarmStart warm = warm_;
-      const ControlledStep trial = attempt(segment, dt, warm);
+      const ControlledStep trial = attempt(segment, here(), dt, warm);
       if (!trial.converged) break;
       step = {dt, trial};
-      f = watched_value(column, accepted_point(trial, segment, dt), time_ + dt) - target;
+      f = watched_value(column, accepted_point(trial, segment, here(), dt), time_ + dt) - target;
       if ((f > 0.0) == (f_low > 0.0)) {
         low = dt, f_low = f;
         f_high *= 0.5;  // Illinois: the end that stays loses weight
@@ -244,10 +291,10 @@ class Traveller {
   }
 
   /// The point as it will be kept after a step: with the temperature that is ruled from outside.
-  Point<double> accepted_point(const ControlledStep& result, const PathSegment& segment, double dt) const {
+  Point<double> accepted_point(const ControlledStep& result, const PathSegment& segment, const Place& from, double dt) const {
     Point<double> point = result.point;
     if (path_.heat == Heat::adiabatic) return point;
-    point.state.temperature = state_.temperature + (path_.heat == Heat::prescribed ? segment.temperature_rate * dt : 0.0);
+    point.state.temperature = from.state.temperature + (path_.heat == Heat::prescribed ? segment.temperature_rate * dt : 0.0);
     // What would have heated the point leaves it.
     if (heating_)
       point.state.energy -= heating_->taylor_quinney(point.state.plastic_strain) * point.plastic_work / point.state.density;
@@ -258,7 +305,7 @@ class Traveller {
     const SymmetricTensor<double> D = symmetric_part(step.result.velocity_gradient);
     accumulated_ += step.dt * std::sqrt(2.0 / 3.0) * norm(deviator(D));
     if (options_.keep_steps) outcome_.taken.push_back({step.dt, step.result.velocity_gradient});
-    point_ = accepted_point(step.result, segment, step.dt);
+    point_ = accepted_point(step.result, segment, here(), step.dt);
     state_ = point_.state;
     time_ = time;
   }
@@ -283,6 +330,8 @@ class Traveller {
   Point<double> point_;
   WarmStart warm_;
   Start start_{};
+  int trusted_ = 0;                         // steps that are known to be accurate
+  double trusted_dt_ = 0.0, wanted_ = 0.0;  // s, their size, and what the error suggests for the next ones
   std::size_t number_ = 1;
   double time_ = 0.0;
   double accumulated_ = 0.0;

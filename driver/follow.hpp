@@ -23,6 +23,7 @@ struct Outcome {
   State<double> state;        // at the end
   double time = 0.0;          // s
   long steps = 0, updates = 0;
+  long rejected = 0;           // steps whose halves came out otherwise than the tolerance of the path allows
   State<double> start;         // at the start of the first segment
   std::vector<Segment> taken;  // every step, if asked for
 };
@@ -36,8 +37,8 @@ struct FollowOptions {
 };
 
 /// Leads a point of this material along the path and records its history. Steps are limited by path.strain_increment and
-/// halved where the update or the mixed control asks for it. Throws RunError if halving does not help; the history then
-/// holds what was reached.
+/// path.tolerance, and halved where the update or the mixed control asks for it. Throws RunError if halving does not help; the
+/// history then holds what was reached.
 Outcome follow(const Material& material, const LoadingPath& path, History& history, const FollowOptions& options = {});
 
 }  // namespace brisance::driver

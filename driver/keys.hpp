@@ -252,7 +252,7 @@ struct PathKeys {
   MaterialFile material;
   Heat heat = Heat::adiabatic;
   OnFailure on_failure = OnFailure::stop;
-  double strain_increment = LoadingPath{}.strain_increment, cell_size = 0.0;
+  double strain_increment = LoadingPath{}.strain_increment, tolerance = 0.0, cell_size = 0.0;
   InitialKeys initial;
   OutputKeys output;
   std::optional<PlotKeys> plot;
@@ -269,6 +269,11 @@ inline constexpr auto keys<PathKeys> = std::tuple{
     Key{"on_failure", &PathKeys::on_failure, Unit::one, "what happens when a failure criterion fires"},
     Key{"strain_increment", &PathKeys::strain_increment, Unit::one, "largest strain of a step",
         Interval{.lower = 0.0, .upper = 0.05, .lower_open = true}},
+    Key{"tolerance", &PathKeys::tolerance, Unit::one,
+        "largest relative difference, in stress, temperature and plastic strain, between one step and two of half its size, "
+        "which "
+        "are kept; 0: steps are not looked at",
+        Interval{.lower = 0.0, .upper = 0.1}},
     Key{"cell_size", &PathKeys::cell_size, Unit::m, "length of the artificial viscosity; 0: none", non_negative},
     Key{"initial", &PathKeys::initial, Unit::one, "the state at the start", any_value, required},
     Key{"segment", &PathKeys::segments, Unit::one, "what is done to the point, one after the other", any_value, required},

@@ -126,6 +126,7 @@ std::vector<LawPage> all_laws() {
   add_folder(pages, "porosity", static_cast<Porosity*>(nullptr));
   add_folder(pages, "initial_porosity", static_cast<InitialPorosity*>(nullptr));
   add_folder(pages, "damage", static_cast<Damage*>(nullptr));
+  add_folder(pages, "initial_damage", static_cast<InitialDamage*>(nullptr));
   add_folder(pages, "stability", static_cast<Stability*>(nullptr));
   add_folder(pages, "failure", static_cast<Failure*>(nullptr));
   add_folder(pages, "reaction", static_cast<Reaction*>(nullptr));

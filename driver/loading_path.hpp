@@ -56,6 +56,7 @@ struct LoadingPath {
   Heat heat = Heat::adiabatic;
   OnFailure on_failure = OnFailure::stop;
   double strain_increment = 2e-4;  // largest |dt L| of a step
+  double tolerance = 0.0;          // largest relative difference of a step and its two halves; 0: not looked at
   double cell_size = 0.0;          // m, of the artificial viscosity
   std::vector<PathSegment> segments;
   OutputDensity output;

@@ -337,6 +337,7 @@ PointCase read_case(const std::filesystem::path& file, const std::vector<std::st
   path.heat = keys.heat;
   path.on_failure = keys.on_failure;
   path.strain_increment = keys.strain_increment;
+  path.tolerance = keys.tolerance;
   path.cell_size = keys.cell_size;
   path.temperature = keys.initial.temperature;
   path.density = keys.initial.density;

@@ -33,8 +33,9 @@ std::string ending_text(const Outcome& outcome) {
 
 void print_end(const PointCase& point, const Outcome& outcome, double wall_time) {
   const State<double>& s = outcome.state;
-  fmt::print("{}\n  material: {}\n  {}; {} steps, {} updates, {:.2f} s\n", point.path.title, point.file.material.name,
-             ending_text(outcome), outcome.steps, outcome.updates, wall_time);
+  const std::string rejected = point.path.tolerance > 0.0 ? fmt::format(" ({} rejected)", outcome.rejected) : "";
+  fmt::print("{}\n  material: {}\n  {}; {} steps{}, {} updates, {:.2f} s\n", point.path.title, point.file.material.name,
+             ending_text(outcome), outcome.steps, rejected, outcome.updates, wall_time);
   fmt::print("  time {:.6g} s, temperature {:.2f} K, density {:.2f} kg/m^3, pressure {:.6g} MPa\n", outcome.time, s.temperature,
              s.density, -trace(s.stress) / 3e6);
   fmt::print("  stress (MPa): xx {:.6g}, yy {:.6g}, zz {:.6g}, yz {:.6g}, xz {:.6g}, xy {:.6g}; equivalent {:.6g}\n",

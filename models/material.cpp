@@ -52,6 +52,7 @@ std::vector<std::string> incompatibilities(const Material& m) {
     reasons.unless(!std::holds_alternative<porosity::Growth>(*m.porosity),
                    "porosity: voids do not grow under the isochoric flow of von_mises; use gurson_tvergaard_needleman");
   reasons.unless(!m.initial_porosity || m.porosity, "initial_porosity: it would be ignored without a [porosity] table");
+  reasons.unless(!m.initial_damage || m.damage, "initial_damage: it would be ignored without a [damage] table");
   reasons.unless(!m.damage || plastic, "damage: it grows with plastic strain; add [flow_stress] and [yield] tables");
 
   reasons.unless(!m.heating || m.specific_heat,

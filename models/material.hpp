@@ -50,6 +50,7 @@ struct Material {
   std::optional<Porosity> porosity;
   std::optional<InitialPorosity> initial_porosity;
   std::optional<Damage> damage;
+  std::optional<InitialDamage> initial_damage;
   std::vector<Stability> stability;
   std::vector<Failure> failure;
   std::optional<Heating> heating;

@@ -482,7 +482,7 @@ void stability(const M& material, Batch<Real>& batch) {
       for (Point<Real>& p : batch) {
         stability::Arguments<Real> at = detail::tangent(surface, nucleation, p, detail::flow_stress_slopes(flow, p));
         at.shear_modulus = p.state.shear_modulus, at.bulk_modulus = p.bulk_modulus;
-        at.deviatoric_stress = p.deviator, at.yield_stress = p.flow_stress;
+        at.deviatoric_stress = p.deviator, at.mean_stress = -p.pressure, at.yield_stress = p.flow_stress;
         Real least(1.0);
         for (const Stability& any_law : material.stability)
           visit_law(any_law, [&](const auto& law) { least = min(least, law(at)); });

@@ -316,6 +316,8 @@ class CaseReader : public KeyReader<CaseReader> {
     check_velocity(in, body.velocity);
     if (body.porosity && !body.material.material.porosity)
       in.problem("porosity", "it would be ignored: the material has no [porosity] table");
+    if (body.damage && !body.material.material.damage)
+      in.problem("damage", "it would be ignored: the material has no [damage] table");
     if (body.strength && body.strength->weibull_modulus > 0.0 && body.strength->reference_volume == 0.0)
       in.problem("strength", "a Weibull distribution needs the volume its median belongs to; give reference_volume");
   }

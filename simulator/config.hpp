@@ -102,6 +102,7 @@ struct BodyConfig {
   InitialVelocity velocity;
   double temperature = 0.0;                 // K
   std::optional<InitialPorosity> porosity;  // instead of the material's
+  std::optional<InitialDamage> damage;      // instead of the material's
   std::optional<StrengthDistribution> strength;
   bool locking_cure = true;  // averaging of the volume change over each cell; only where the material flows plastically
 };

@@ -106,6 +106,7 @@ inline constexpr auto keys<BodyConfig> = std::tuple{
     Key{"particles_per_direction", &BodyConfig::particles_per_direction, Unit::one, "particles in a cell along each direction",
         between(1, 8)},
     Key{"porosity", &BodyConfig::porosity, Unit::one, "initial porosity instead of the material's: a table with its law"},
+    Key{"damage", &BodyConfig::damage, Unit::one, "initial damage instead of the material's: a table with its law"},
     Key{"strength", &BodyConfig::strength, Unit::one, "factor on the strength of each particle"},
     Key{"locking_cure", &BodyConfig::locking_cure, Unit::one,
         "averages the volume change over each cell where the material flows plastically"},

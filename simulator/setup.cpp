@@ -109,7 +109,8 @@ void write_state(Particles& ps, int p, const State<double>& s) {
   load[L::Load::density * chunk_size] = s.density;
   for (const int k : {0, D == 3 ? 4 : 3, D == 3 ? 8 : 4}) rest[(L::Rest::deformation_gradient + k) * chunk_size] = 1.0;
   rest[L::Rest::energy * chunk_size] = s.energy, rest[L::Rest::temperature * chunk_size] = s.temperature;
-  rest[L::Rest::porosity * chunk_size] = s.porosity, rest[L::Rest::shear_modulus * chunk_size] = s.shear_modulus;
+  rest[L::Rest::porosity * chunk_size] = s.porosity, rest[L::Rest::damage * chunk_size] = s.damage;
+  rest[L::Rest::shear_modulus * chunk_size] = s.shear_modulus;
   for (int k = 0; k < ps.history_columns; ++k) rest[(ps.history() + k) * chunk_size] = s.history[static_cast<std::size_t>(k)];
 }
 
@@ -142,6 +143,7 @@ Body build(const Case& c, std::size_t number) {
   Body body;
   body.name = config.name, body.material = config.material.material;
   if (config.porosity) body.material.initial_porosity = config.porosity;
+  if (config.damage) body.material.initial_damage = config.damage;
   body.locking_cure = config.locking_cure && body.material.flow_stress.has_value();
   std::vector<const LoadConfig*> loads;
   for (const LoadConfig& l : c.loads)
@@ -174,9 +176,11 @@ Body build(const Case& c, std::size_t number) {
     const Site& site = sites[static_cast<std::size_t>(p)];
     const std::uint64_t id = static_cast<std::uint64_t>(number) << 48 | lattice.number(site.index);
     ps.id[static_cast<std::size_t>(p)] = id;
-    if (body.material.initial_porosity)
-      std::visit([&](const auto& law) { state.porosity = law(uniform(c.numerics.seed, id, RandomProperty::porosity)); },
-                 *body.material.initial_porosity);
+    const auto draw = [&](const std::optional<InitialPorosity>& any_law, RandomProperty property, double& value) {
+      if (any_law) std::visit([&](const auto& law) { value = law(uniform(c.numerics.seed, id, property)); }, *any_law);
+    };
+    draw(body.material.initial_porosity, RandomProperty::porosity, state.porosity);
+    draw(body.material.initial_damage, RandomProperty::damage, state.damage);
     write_state<D>(ps, p, state);
     double volume = site.filled;
     for (int a = 0; a < D; ++a) volume *= lattice.spacing;

@@ -234,6 +234,7 @@ void for_each_component_of(SomeMaterial& m, F&& f) {
   f("porosity", m.porosity);
   f("initial_porosity", m.initial_porosity);
   f("damage", m.damage);
+  f("initial_damage", m.initial_damage);
   f("stability", m.stability);
   f("failure", m.failure);
   f("reaction", m.reaction);

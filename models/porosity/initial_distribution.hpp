@@ -1,7 +1,7 @@
 #pragma once
-// How the porosity of the new material varies from point to point. A law is the inverse of a cumulative distribution: it turns
-// one number uniform in (0, 1) into a porosity. Truncated distributions are the full ones on the condition of lying inside the
-// bounds; nothing is folded or piled up at an end.
+// How the porosity or the damage of the new material varies from point to point. A law is the inverse of a cumulative
+// distribution: it turns one number uniform in (0, 1) into a value. Truncated distributions are the full ones on the condition
+// of lying inside the bounds; nothing is folded or piled up at an end.
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ struct Constant {
   double value;
 
   static constexpr auto parameters =
-      std::tuple{Parameter{"value", &Constant::value, Unit::one, "f0, porosity", Interval{0.0, 1.0, false, true}}};
+      std::tuple{Parameter{"value", &Constant::value, Unit::one, "f0, porosity or damage", Interval{0.0, 1.0, false, true}}};
 
   double operator()(double /*uniform*/) const { return value; }
 };
@@ -37,7 +37,7 @@ struct Gaussian {
   static constexpr auto parameters =
       std::tuple{Parameter{"mean", &Gaussian::mean, Unit::one, "mean of the normal distribution before truncation", fraction},
                  Parameter{"standard_deviation", &Gaussian::standard_deviation, Unit::one, "its standard deviation", positive},
-                 Parameter{"upper", &Gaussian::upper, Unit::one, "largest porosity; half of that at failure is a usual choice",
+                 Parameter{"upper", &Gaussian::upper, Unit::one, "largest value; half of that at failure is a usual choice",
                            Interval{0.0, 1.0, true, true}}};
 
   /// The f for which the probability of [0, f] is `uniform` times that of [0, upper].
@@ -85,9 +85,9 @@ struct Weibull {
   double scale, shape, upper;
 
   static constexpr auto parameters = std::tuple{
-      Parameter{"scale", &Weibull::scale, Unit::one, "porosity that 63 % of the points lie below", positive},
+      Parameter{"scale", &Weibull::scale, Unit::one, "value that 63 % of the points lie below", positive},
       Parameter{"shape", &Weibull::shape, Unit::one, "exponent: the larger, the narrower the distribution", positive},
-      Parameter{"upper", &Weibull::upper, Unit::one, "largest porosity", Interval{0.0, 1.0, true, true}}};
+      Parameter{"upper", &Weibull::upper, Unit::one, "largest value", Interval{0.0, 1.0, true, true}}};
 
   double operator()(double uniform) const {
     const double inside = -std::expm1(-std::pow(upper / scale, shape));
@@ -100,5 +100,6 @@ struct Weibull {
 namespace brisance {
 
 using InitialPorosity = std::variant<porosity::initial::Constant, porosity::initial::Gaussian, porosity::initial::Weibull>;
+using InitialDamage = InitialPorosity;
 
 }  // namespace brisance

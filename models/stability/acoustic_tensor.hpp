@@ -62,20 +62,68 @@ Localisation<Real> localisation(const Arguments<Real>& at) {
           select(distinct, (A - P3) / select(distinct, gap, Real(1.0)), Real(1.0))};
 }
 
+/// The same where stress is not small beside the shear modulus: Jaumann's rate of the Kirchhoff stress adds
+/// [(m.sig.m) I - m (sig.m) - sig - (sig.m) m]/2 to Qe. With the normal in the plane of the largest and the smallest principal
+/// stress, b.Qe^-1.b is the ratio of two quadratic polynomials in w, the square of the cosine to the axis of the largest, and
+/// where its slope vanishes w solves a third.
+template <class Real>
+Localisation<Real> localisation_under_finite_stress(const Arguments<Real>& at) {
+  struct Quadratic {  // c0 + c1 w + c2 w^2
+    Real c0, c1, c2;
+    Real operator()(const Real& w) const { return c0 + w * (c1 + w * c2); }
+  };
+  const PrincipalDeviator<Real> s = principal_values(at.deviatoric_stress);
+  const Real G = at.shear_modulus, L = at.bulk_modulus + (1.0 / 3.0) * G;
+  const Real volumetric = 3.0 * at.bulk_modulus * at.normal_volumetric, deviatoric = 2.0 * G * at.normal_deviatoric;
+  const Real P1 = volumetric + deviatoric * s.major, P3 = volumetric + deviatoric * s.minor;
+  const Real sig1 = s.major + at.mean_stress, sig3 = s.minor + at.mean_stress, mean = 0.5 * (sig1 + sig3);
+  // Q11 and Q33 are linear in w: here they are at w = 0 and w = 1. Q13^2 = w (1 - w) M^2.
+  const Real Q11_0 = G + 0.5 * (sig3 - sig1), Q11_1 = G + L - sig1;
+  const Real Q33_0 = G + L - sig3, Q33_1 = G + 0.5 * (sig1 - sig3), M = L - mean;
+  const Real Q11 = Q11_1 - Q11_0, Q33 = Q33_1 - Q33_0;  // slopes
+  const Quadratic work{P3 * P3 * Q11_0, P1 * P1 * Q33_0 - 2.0 * P1 * P3 * M + P3 * P3 * (Q11 - Q11_0),
+                       P1 * P1 * Q33 + 2.0 * P1 * P3 * M - P3 * P3 * Q11};
+  const Quadratic determinant{Q11_0 * Q33_0, Q11_0 * Q33 + Q11 * Q33_0 - M * M, Q11 * Q33 + M * M};
+  // (work/determinant)' = 0
+  const Real alpha = work.c1 * determinant.c0 - work.c0 * determinant.c1,
+             beta = 2.0 * (work.c2 * determinant.c0 - work.c0 * determinant.c2),
+             gamma = work.c2 * determinant.c1 - work.c1 * determinant.c2;
+  const Real root = sqrt(max(beta * beta - 4.0 * alpha * gamma, Real(0.0)));
+  const Real q = -0.5 * (beta + select(beta >= 0.0, root, -root));
+  const auto ratio = [](const Real& a, const Real& b) { return a / select(abs(b) > 1e-200, b, Real(1e-200)); };
+  Localisation<Real> most{Real(-1e300), Real(0.0)};
+  for (const Real& stationary : {Real(0.0), Real(1.0), ratio(q, gamma), ratio(alpha, q)}) {
+    const Real w = min(max(stationary, Real(0.0)), Real(1.0));
+    const Real stiffness = determinant(w);
+    // Without elastic stiffness against a band nothing holds it.
+    const Real value = select(stiffness > 0.0, ratio(work(w), stiffness), Real(1e300));
+    const mask_of<Real> more = value > most.critical_modulus;
+    most = {select(more, value, most.critical_modulus), select(more, w, most.major_part)};
+  }
+  most.critical_modulus = most.critical_modulus - elastic_stiffness_along_normal(at);
+  return most;
+}
+
 struct AcousticTensor {
   static constexpr std::string_view name = "acoustic_tensor";
   static constexpr std::string_view equation =
       "unstable when min over |m| = 1 of det(m.Cep.m) <= 0:  Hd <= max_m [m.(N:Ce).Qe^-1.(Ce:N).m] - N:Ce:N,  "
-      "Qe^-1 = (I - m m (K + G/3)/(K + 4G/3))/G";
+      "Qe^-1 = (I - m m (K + G/3)/(K + 4G/3))/G;  finite_stress: Qe + [(m.sig.m) I - m (sig.m) - sig - (sig.m) m]/2";
   static constexpr std::string_view source =
       "Rudnicki & Rice, J. Mech. Phys. Solids 23 (1975) 371-394; closed form for normals N = a s + b I, band normals along a "
-      "principal axis included. Small-strain form: terms of the order of stress over shear modulus are left out.";
+      "principal axis included. Without finite_stress terms of the order of stress over shear modulus are left out; with it "
+      "they are those of Jaumann's rate of the Kirchhoff stress.";
 
-  static constexpr auto parameters = std::tuple{};
+  bool finite_stress = false;
+
+  static constexpr auto parameters =
+      std::tuple{Parameter{"finite_stress", &AcousticTensor::finite_stress, Unit::one,
+                           "include the terms of the order of stress over shear modulus", any_value, false}};
 
   template <class Real>
   Real operator()(const Arguments<Real>& at) const {
-    return margin(at, localisation(at).critical_modulus);
+    const Localisation<Real> band = finite_stress ? localisation_under_finite_stress(at) : localisation(at);
+    return margin(at, band.critical_modulus);
   }
 };
 

@@ -16,6 +16,7 @@ struct Arguments {
   Real shear_modulus{0.0};                  // Pa
   Real bulk_modulus{0.0};                   // Pa, tangent
   SymmetricTensor<Real> deviatoric_stress;  // Pa, s
+  Real mean_stress{0.0};                    // Pa, tension positive
   Real yield_stress{0.0};                   // Pa, of the matrix
   Real normal_deviatoric{0.0};              // a >= 0
   Real normal_volumetric{0.0};              // b

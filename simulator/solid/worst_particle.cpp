@@ -60,7 +60,8 @@ std::string highest_rated(Domain& domain, const Remark& mine) {
 
 std::string fastest_deforming(const Simulation& s) {
   // What pushes the grid with something that is not finite comes before those that have it from there.
-  constexpr double spoilt = std::numeric_limits<double>::infinity(), not_finite = std::numeric_limits<double>::max();
+  constexpr double infinity = std::numeric_limits<double>::infinity(), spoilt = infinity,
+                   not_finite = std::numeric_limits<double>::max();
   const Body* body = nullptr;
   int particle = 0;
   Remark worst;
@@ -75,7 +76,8 @@ std::string fastest_deforming(const Simulation& s) {
                                                                                : not_finite;
       const std::uint64_t id = ps.id[static_cast<std::size_t>(p)];
       if (!body || rating > worst.rating || (rating == worst.rating && id < worst.id))
-        body = &b, particle = p, worst.rating = rating, worst.id = id, gradient = std::sqrt(square);
+        body = &b, particle = p, worst.rating = rating, worst.id = id,
+        gradient = std::isfinite(square) ? std::sqrt(square) : infinity;
     }
   }
   if (body) worst.text = fmt::format("|L| is {:.4g} /s at {}", gradient, facts(s, *body, particle));

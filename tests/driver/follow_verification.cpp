@@ -161,6 +161,56 @@ TEST(Hydrostatic, ReachesThePrescribedPressureWithoutShape) {
   EXPECT_EQ(r.last("plastic_strain"), 0.0);
 }
 
+/// A metal that hardens, depends on its rate and is warmed by its work.
+Material hardening_metal() {
+  Material m = plastic();
+  m.flow_stress = flow_stress::JohnsonCook{
+      .A = 90e6, .B = 292e6, .n = 0.31, .C = 0.025, .m = 1.09, .reference_strain_rate = 1.0, .reference_temperature = 300.0};
+  m.melting = melting::Constant{1356.0};
+  m.specific_heat = specific_heat::Constant{450.0};
+  Table chi;
+  chi.size = 1, chi.y[0] = 0.9;
+  m.heating = Heating{.taylor_quinney = chi, .viscous = true, .thermoelastic = true};
+  return m;
+}
+Journey drawn(double strain_increment, double tolerance) {
+  LoadingPath path = path_of({uniaxial_stress(1000, 1e-4), uniaxial_stress(1e5, 1e-6)});  // to 0.2, with a jump of the rate
+  path.strain_increment = strain_increment, path.tolerance = tolerance;
+  return run(hardening_metal(), path);
+}
+
+TEST(Tolerance, KeepsTheErrorOfTheWholePath) {
+  const Journey reference = drawn(2e-6, 0.0);
+  double before = 1.0;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    const Journey r = drawn(0.02, tolerance);
+    double error = 0.0;
+    for (const char* column : {"stress_xx", "temperature"})
+      error = std::max(error, std::abs(r.last(column) / reference.last(column) - 1.0));
+    // Two steps that are kept err by what they differ from one of twice the size, if the error of a step goes with its square.
+    EXPECT_LT(error, 0.5 * tolerance * static_cast<double>(r.outcome.steps)) << "if all errors added up";
+    EXPECT_LT(error, before);
+    before = error;
+  }
+}
+
+TEST(Tolerance, TakesShortStepsWhereTheyAreNeededAlone) {
+  const Journey r = drawn(0.02, 1e-4), uniform = drawn(2e-4, 0.0);
+  EXPECT_GT(r.outcome.rejected, 0);
+  EXPECT_LT(r.outcome.steps, uniform.outcome.steps);
+  EXPECT_EQ(uniform.outcome.rejected, 0);
+  // The time goes on by the steps that were kept and comes to the end of each segment.
+  const std::vector<double>& time = r.record.find("time")->values;
+  EXPECT_TRUE(std::is_sorted(time.begin(), time.end()));
+  EXPECT_NEAR(time.back() / 1.01e-4, 1.0, 1e-14);
+  double shortest = 1.0, longest = 0.0;
+  for (std::size_t i = 1; i < time.size(); ++i)
+    if (time[i] > time[i - 1] && time[i] <= 1e-4) {
+      shortest = std::min(shortest, time[i] - time[i - 1]), longest = std::max(longest, time[i] - time[i - 1]);
+    }
+  EXPECT_GT(longest / shortest, 10.0) << "from the knee to where it hardens slowly";
+}
+
 LoadingPath read_path(const std::string& segment) {
   const std::string file = testing::TempDir() + "/follow_path.toml";
   std::ofstream(file) << "material = \"" BRISANCE_SOURCE_DIR

@@ -97,6 +97,8 @@ std::vector<Fault> faults() {
        "do not grow under the isochoric flow"},
       {"initial porosity without porosity", steel, [](Material& m) { m.initial_porosity = porosity::initial::Constant{0.01}; },
        "initial_porosity", "would be ignored"},
+      {"initial damage without damage", elastic(), [](Material& m) { m.initial_damage = porosity::initial::Constant{0.01}; },
+       "initial_damage", "would be ignored"},
       {"damage without flow", elastic(), [](Material& m) { m.damage = damage::HancockMackenzie{false}; }, "damage",
        "grows with plastic strain"},
       {"heating without specific heat", steel, [](Material& m) { m.specific_heat.reset(); }, "heating",

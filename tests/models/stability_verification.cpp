@@ -70,8 +70,9 @@ struct Found {
   Vector3d normal;
 };
 
-/// Every two degrees over the hemisphere, then a compass search from the best four.
-Found search(const Arguments& at) {
+/// The largest value over all directions: every two degrees over the hemisphere, then a compass search from the best four.
+template <class Modulus>
+Found search_all_directions(Modulus&& modulus) {
   static const std::vector<Vector3d> grid = [] {
     std::vector<Vector3d> directions;
     constexpr double step = 2.0 * std::numbers::pi / 180.0;
@@ -85,14 +86,6 @@ Found search(const Arguments& at) {
     }
     return directions;
   }();
-  // The same quantity, with the elastic acoustic tensor inverted once and for all: Qe = G I + (K + G/3) m m.
-  const Matrix3d P = elastic(at, normal(at));
-  const double G = at.shear_modulus, L = at.bulk_modulus + G / 3.0, stiffness = normal_stiffness(at);
-  const auto modulus = [&](const Vector3d& m) {
-    const Vector3d b = P * m;
-    const double along = m.dot(b);
-    return (b.squaredNorm() - along * along * L / (G + L)) / G - stiffness;
-  };
   std::vector<Found> found;
   for (const Vector3d& m : grid) found.push_back({modulus(m), m});
   std::partial_sort(found.begin(), found.begin() + 4, found.end(),
@@ -112,6 +105,18 @@ Found search(const Arguments& at) {
   }
   return *std::max_element(found.begin(), found.end(),
                            [](const Found& a, const Found& b) { return a.critical_modulus < b.critical_modulus; });
+}
+
+Found search(const Arguments& at) {
+  // The same quantity as critical_modulus, with the elastic acoustic tensor inverted once and for all: Qe = G I + (K + G/3) m
+  // m.
+  const Matrix3d P = elastic(at, normal(at));
+  const double G = at.shear_modulus, L = at.bulk_modulus + G / 3.0, stiffness = normal_stiffness(at);
+  return search_all_directions([&](const Vector3d& m) {
+    const Vector3d b = P * m;
+    const double along = m.dot(b);
+    return (b.squaredNorm() - along * along * L / (G + L)) / G - stiffness;
+  });
 }
 
 // Stress states --------------------------------------------------------------------------------------------------------
@@ -309,6 +314,66 @@ TEST(AcousticTensor, HydrostaticTensionLosesEllipticityInAllDirectionsAtOnce) {
   EXPECT_NEAR(search(at).critical_modulus / (9.0 * K * b * b), K / L - 1.0, round_off);
 }
 
+// Finite stress ----------------------------------------------------------------------------------------------------------
+
+/// Column by column the rate of the traction on m, from the rate of the first Piola-Kirchhoff stress P' = tau' - sig L^T, where
+/// Jaumann's rate of the Kirchhoff stress is elastic, tau' = Ce:D + W sig - sig W, in the motion L = e_k m.
+Matrix3d acoustic_tensor_under_stress(const Arguments& at, const Vector3d& m) {
+  const Matrix3d sig = matrix(at.deviatoric_stress) + at.mean_stress * Matrix3d::Identity();
+  Matrix3d Q;
+  for (int k = 0; k < 3; ++k) {
+    const Matrix3d L = Vector3d::Unit(k) * m.transpose(), D = 0.5 * (L + L.transpose()), W = L - D;
+    Q.col(k) = (elastic(at, D) + W * sig - sig * W - sig * L.transpose()) * m;
+  }
+  return Q;
+}
+
+TEST(AcousticTensorUnderStress, EqualsTheSearchOverAllDirections) {
+  RandomStates random;
+  for (int i = 0; i < 200; ++i) {
+    Arguments at = i % 2 == 0 ? random.von_mises() : random.gurson();
+    at.mean_stress = random.uniform(-2.0, 2.0) * at.yield_stress;
+    const Matrix3d P = elastic(at, normal(at));
+    const double stiffness = normal_stiffness(at);
+    const Found found = search_all_directions([&](const Vector3d& m) {
+      const Vector3d b = P * m;
+      return b.dot(acoustic_tensor_under_stress(at, m).inverse() * b) - stiffness;
+    });
+    const double closed = localisation_under_finite_stress(at).critical_modulus;
+    constexpr double tolerance = 1e-8;  // of N:Ce:N, as without stress
+    EXPECT_NEAR(closed / stiffness, found.critical_modulus / stiffness, tolerance) << "state " << i;
+    EXPECT_NEAR(AcousticTensor{true}(at), (at.plastic_modulus - closed) / stiffness, round_off);
+  }
+}
+
+/// Hill & Hutchinson, J. Mech. Phys. Solids 23 (1975) 239-264: an incompressible body in plane strain, sheared with the modulus
+/// G across and G* along the axes of stress, has no bands as long as 2 G* > G - sqrt(G^2 - (sig/2)^2), sig the difference of
+/// the principal stresses. With the normal to the surface of von Mises G* = G H/(3 G + H): bands form before the peak.
+TEST(AcousticTensorUnderStress, FormsBandsInPlaneStrainWhereHillAndHutchinsonSay) {
+  for (const double shear : {0.01, 0.1, 0.3}) {  // sig/2 over G
+    for (const double mean : {-0.2, 0.0, 0.2}) {
+      const double G = 77e9, tau = shear * G;
+      Arguments at = von_mises({tau, -tau, 0.0, 0.0, 0.0, 0.0});
+      constexpr double incompressible = 1e7;  // K over G: compressibility changes the result by about the inverse
+      at.bulk_modulus = incompressible * G, at.mean_stress = mean * G;
+      const double x = 0.5 * (1.0 - std::sqrt(1.0 - shear * shear)), H = 3.0 * G * x / (1.0 - x);
+      constexpr double tolerance = 1e-6;  // of G; what K leaves, and round-off that K has multiplied
+      EXPECT_NEAR(localisation_under_finite_stress(at).critical_modulus / G, H / G, tolerance) << shear << ' ' << mean;
+    }
+  }
+}
+
+TEST(AcousticTensorUnderStress, IsTheSmallStrainFormWithoutStress) {
+  RandomStates random;
+  for (int i = 0; i < 200; ++i) {
+    Arguments at = i % 2 == 0 ? random.von_mises() : random.gurson();
+    const double expected = AcousticTensor{}(at);
+    // The same normal, of a stress a billion times smaller.
+    at.deviatoric_stress = 1e-9 * at.deviatoric_stress, at.normal_deviatoric *= 1e9;
+    EXPECT_NEAR(AcousticTensor{true}(at), expected, 1e-9) << i;
+  }
+}
+
 TEST(AcousticTensor, MarginChangesSignWhereTheDeterminantDoes) {
   RandomStates random;
   for (int i = 0; i < 200; ++i) {
@@ -339,12 +404,17 @@ TEST(AcousticTensor, IsTheSameInLanes) {
   stability::Arguments<Lanes> at;
   for (int i = 0; i < 8; ++i) {
     points[i] = i % 2 == 0 ? random.von_mises() : random.gurson();
+    points[i].mean_stress = 0.1 * i * points[i].yield_stress;
+    at.mean_stress.set(i, points[i].mean_stress);
     at.shear_modulus.set(i, points[i].shear_modulus), at.bulk_modulus.set(i, points[i].bulk_modulus);
     at.normal_deviatoric.set(i, points[i].normal_deviatoric), at.normal_volumetric.set(i, points[i].normal_volumetric);
     for_each_component([i](Lanes& lane, double s) { lane.set(i, s); }, at.deviatoric_stress, points[i].deviatoric_stress);
   }
-  const Lanes margin = AcousticTensor{}(at);
-  for (int i = 0; i < 8; ++i) EXPECT_NEAR(margin[i], AcousticTensor{}(points[i]), round_off);
+  for (const bool finite_stress : {false, true}) {
+    const AcousticTensor law{finite_stress};
+    const Lanes margin = law(at);
+    for (int i = 0; i < 8; ++i) EXPECT_NEAR(margin[i], law(points[i]), round_off);
+  }
 }
 
 // Drucker ----------------------------------------------------------------------------------------------------------------

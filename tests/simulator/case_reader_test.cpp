@@ -95,6 +95,7 @@ material = "steel_hy100.toml"
 temperature = "600 K"
 shape = { difference = { from = { box = { lower = [-0.01, 0, 0], upper = [0.01, 0.01, 0.01] } }, without = [ { sphere = { centre = [0, 0.01, 0], radius = "3 mm", inner_radius = "1 mm" } } ] } }
 porosity = { law = "gaussian", mean = 0.005, standard_deviation = 0.001, upper = 0.02 }
+damage = { law = "weibull", scale = 0.1, shape = 2, upper = 0.5 }
 strength = { median = 0.9, weibull_modulus = 12, reference_volume = "1 cm^3" }
 particles_per_direction = 3
 locking_cure = false
@@ -206,6 +207,7 @@ TEST(CaseReader, ReadsEveryKey) {
   EXPECT_EQ(c.numerics.seed, 7u);
   const BodyConfig& target = c.bodies.at(0);
   EXPECT_EQ(std::get<porosity::initial::Gaussian>(target.porosity.value()).mean, 0.005);
+  EXPECT_EQ(std::get<porosity::initial::Weibull>(target.damage.value()).shape, 2.0);
   EXPECT_EQ(target.strength.value().reference_volume, 1e-6);
   EXPECT_EQ(target.velocity.rotation, (Vector{0, 0, 100}));
   EXPECT_EQ(target.velocity.radial_rate, 3.0);

@@ -169,9 +169,9 @@ bool same_bits(const Material& a, const Material& b) {
          same_bits(a.melting, b.melting) && same_bits(a.specific_heat, b.specific_heat) &&
          same_bits(a.flow_stress, b.flow_stress) && same_bits(a.yield, b.yield) && same_bits(a.viscoelastic, b.viscoelastic) &&
          same_bits(a.porosity, b.porosity) && same_bits(a.initial_porosity, b.initial_porosity) &&
-         same_bits(a.damage, b.damage) && same_bits(a.stability, b.stability) && same_bits(a.failure, b.failure) &&
-         same_bits(a.heating, b.heating) && same_bits(a.reaction, b.reaction) &&
-         same_bits(a.artificial_viscosity, b.artificial_viscosity);
+         same_bits(a.damage, b.damage) && same_bits(a.initial_damage, b.initial_damage) &&
+         same_bits(a.stability, b.stability) && same_bits(a.failure, b.failure) && same_bits(a.heating, b.heating) &&
+         same_bits(a.reaction, b.reaction) && same_bits(a.artificial_viscosity, b.artificial_viscosity);
 }
 
 void expect_round_trip(const MaterialFile& file, const std::string& what) {
@@ -286,6 +286,7 @@ TEST(EveryLaw, RoundTripsThroughAMaterialFile) {
   expect_every_law_round_trips(&Material::porosity, "porosity");
   expect_every_law_round_trips(&Material::initial_porosity, "initial_porosity");
   expect_every_law_round_trips(&Material::damage, "damage");
+  expect_every_law_round_trips(&Material::initial_damage, "initial_damage");
   expect_every_law_round_trips(&Material::stability, "stability");
   expect_every_law_round_trips(&Material::failure, "failure");
   expect_every_law_round_trips(&Material::reaction, "reaction");
