@@ -3,7 +3,7 @@
 #   run       the main job: Taylor impact of annealed copper; prints computed against measured, shows the figure
 #   point     the point driver's job: 6061-T6 through 95 measured curves; prints the table, shows the figure
 #   test      unit and verification tests
-#   validate  figures of the laws and Taylor impacts against experiment   (validate NAME: one; --full: all; --list)
+#   validate  figures of the laws, Taylor impacts and rate sticks against experiment   (validate NAME: one; --full: all; --list)
 #   bench     nanoseconds per update and per particle-step, with the environment beside them
 # Environment: BRISANCE_PRESET (default release; ci makes warnings errors), BRISANCE_JOBS (default: all cores).
 set -euo pipefail
@@ -73,10 +73,11 @@ case $action in
     ;;
   validate)
     install_packages
-    build -DBRISANCE_BUILD_TESTS=OFF gallery taylor
+    build -DBRISANCE_BUILD_TESTS=OFF gallery taylor detonation
     case ${1:-} in
-      "" | --full) "$build/plots/gallery" && "$build/plots/taylor" "$@" ;;
-      --list) "$build/plots/gallery" --list && "$build/plots/taylor" --list ;;
+      "" | --full) "$build/plots/gallery" && "$build/plots/detonation" && "$build/plots/taylor" "$@" ;;
+      --list) "$build/plots/gallery" --list && echo "rate_sticks" && "$build/plots/taylor" --list ;;
+      rate_sticks) shift && "$build/plots/detonation" "$@" ;;
       taylor_*) "$build/plots/taylor" "$@" ;;
       *) "$build/plots/gallery" "$@" ;;
     esac
