@@ -3,7 +3,7 @@
 #   run       the main job: Taylor impact of annealed copper; prints computed against measured, shows the figure
 #   point     the point driver's job: 6061-T6 through 95 measured curves; prints the table, shows the figure
 #   test      unit and verification tests
-#   validate  figures of the laws, Taylor impacts against experiment, the gas against exact solutions
+#   validate  figures of the laws, Taylor impacts and rate sticks against experiment, the gas against exact solutions
 #             (validate NAME: one; --full: all; --list)
 #   bench     nanoseconds per update and per particle-step, with the environment beside them
 # Environment: BRISANCE_PRESET (default release; ci makes warnings errors), BRISANCE_JOBS (default: all cores).
@@ -74,21 +74,21 @@ case $action in
     ;;
   validate)
     install_packages
-    build -DBRISANCE_BUILD_TESTS=OFF gallery ice_comparison taylor gas
+    build -DBRISANCE_BUILD_TESTS=OFF gallery ice_comparison taylor gas detonation
     case ${1:-} in
       "" | --full)
         missed=0  # one that misses a limit does not keep the others from being made
-        "$build/plots/gallery" || missed=1
-        "$build/plots/ice_comparison" || missed=1
+        for program in gallery ice_comparison detonation gas; do "$build/plots/$program" || missed=1; done
         "$build/plots/taylor" "$@" || missed=1
-        "$build/plots/gas" || missed=1
         exit $missed
         ;;
       --list)
         for program in gallery taylor gas; do "$build/plots/$program" --list; done
         echo "ice_comparison         the two schemes of the gas at a strong shock"
+        echo "rate_sticks            sticks of ANFO against experiment"
         ;;
       ice_comparison) "$build/plots/ice_comparison" ;;
+      rate_sticks) shift && "$build/plots/detonation" "$@" ;;
       taylor_*) "$build/plots/taylor" "$@" ;;
       gas_*) "$build/plots/gas" "$@" ;;
       *) "$build/plots/gallery" "$@" ;;

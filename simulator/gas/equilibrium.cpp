@@ -161,11 +161,20 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
         shares[r].volume = gas.content.at(block, first + Content::volume)[k];
         shares[r].internal = gas.content.at(block, first + Content::internal)[k];
       }
+      // Cells that are not of the box hold anything: to look for its pressure can take very long.
+      const Lanes space = select(active, room, Lanes(1.0));
+      for (std::size_t r = 0; r < fluids; ++r) {
+        const Fluid& fluid = gas.fluids[r];
+        const double here = r == 0 ? fluid.usual_density : 0.0;
+        shares[r].mass = select(active, shares[r].mass, Lanes(here));
+        shares[r].volume = select(active, shares[r].volume, Lanes(r == 0 ? 1.0 : 0.0));
+        shares[r].internal = select(active, shares[r].internal, Lanes(here * fluid.usual_energy));
+      }
       // Where velocities have mixed, kinetic energy has become heat.
-      Lanes heat = internal;
+      Lanes heat = select(active, internal, shares[0].internal);
       for (std::size_t r = 0; r < fluids; ++r) heat -= shares[r].internal;
       share_heat(gas.fluids, shares, heat);
-      pressure = equilibrate(gas.fluids, shares, room);
+      pressure = equilibrate(gas.fluids, shares, space);
       Lanes compliance(0.0);
       for (std::size_t r = 0; r < fluids; ++r) {
         const int first = Content::fluids(D) + 3 * static_cast<int>(r);

@@ -51,6 +51,7 @@ GasBooks gas_books_of(const Simulation& s) {
   const std::vector<gas::Totals> passed = gas::passed(s.gas, *s.domain);
   for (std::size_t e = 0; e < passed.size(); ++e)
     books.entries.emplace_back(e < s.gas.edges.size() ? s.gas.edges[e].name : "gravity", scaled(passed[e]));
+  books.capped = s.gas.capped;
   const std::vector<gas::Totals> burned = gas::burned(s.gas, *s.domain);
   for (std::size_t n = 0; n < burned.size(); ++n) {
     const gas::Burn& burn = s.gas.burns[n];

@@ -33,6 +33,7 @@ struct GasBooks {
   std::vector<std::pair<std::string, gas::Totals>> entries;
   std::int64_t plain = 0, flattened = 0;  // as in Gas, of this process
   std::vector<ReactionBook> reactions;
+  std::int64_t capped = 0;  // times that a cell wanted to burn more in a step than it may
 
   /// What the gas holds now that it neither held at the start nor received, nor made by reaction.
   gas::Totals residual() const;

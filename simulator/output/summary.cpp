@@ -30,6 +30,8 @@ std::string gas_in_words(const Books& all) {
     if (through.energy != 0.0) row("by " + name, through);
   for (const ReactionBook& reaction : books.reactions)
     text += fmt::format("  {:24} {:14.6g} {:14.6g}\n", "burned by " + reaction.name, reaction.burned, reaction.made.energy);
+  if (books.capped > 0)
+    text += fmt::format("  {} times a cell wanted to burn more than a fifth of itself in a step\n", books.capped);
   row("in no book", books.residual());
   if (books.plain + books.flattened > 0)
     text += fmt::format("  for the sake of positive energies {} cell-steps were first order, {} slopes flatter\n", books.plain,
