@@ -460,6 +460,30 @@ class CaseReader : public KeyReader<CaseReader> {
       in.problem("a state would be ignored: nothing comes through a wall or from beyond a period");
     }
   }
+  void check(TableReader& in, GasBodyConfig& body, const std::vector<GasBodyConfig>& others) {
+    require_own_name(in, body, others);
+    require_file_name(in, body.name);
+    if (!geometry_known_) return;
+    if (dimensions() == 1) return in.problem("in one dimension there are no bodies in the gas; take plane");
+    require_component_in_geometry(in, body.axis);
+    const bool round = is_round(case_.geometry);
+    if (body.mass) {
+      if (body.velocity != Vector{} || body.rotation != Vector{} || body.radial_velocity != 0.0 || body.amplitude)
+        in.problem("mass", "the gas drives a body with a mass from rest: a motion would be ignored; remove one of the two");
+      if (round && body.axis != Axis::y) in.problem("axis", "about an axis of symmetry a body can only move along it: y");
+    } else {
+      if (round && body.velocity[0] != 0.0) in.problem("velocity", "about an axis of symmetry a body can only move along it");
+      if (round && body.rotation != Vector{}) in.problem("rotation", "about an axis of symmetry a body cannot turn");
+      if (!round && dimensions() == 2 && (body.rotation[0] != 0.0 || body.rotation[1] != 0.0))
+        in.problem("rotation", "in the plane a body can only turn about z; give [0, 0, ...]");
+    }
+    if (round && body.radial_velocity != 0.0 && body.centre[0] != 0.0)
+      in.problem("centre", "about an axis of symmetry the centre of a radial motion lies on it: x = 0");
+    if ((body.radial_velocity != 0.0) != (body.radius > 0.0))
+      in.problem(body.radius > 0.0 ? "radius" : "radial_velocity", body.radius > 0.0
+                                                                       ? "it would be ignored: there is no radial velocity"
+                                                                       : "give `radius` as well: where it is so");
+  }
   void check_box(TableReader& in, GasConfig& gas) {
     for (std::size_t k = 0; k < dimensions() && case_.cell_size > 0.0; ++k) {
       if (!(gas.lower[k] < gas.upper[k]))
@@ -479,6 +503,7 @@ class CaseReader : public KeyReader<CaseReader> {
     const bool round = is_round(case_.geometry);
     if (round && gas.lower[0] < 0.0) in.problem("lower", "r = " + in_metres(gas.lower[0]) + "; a radius is not negative");
     if (round && case_.gravity[0] != 0.0) in.problem("lower", "gravity along r is not possible");
+    if (!gas.bodies.empty() && case_.gravity != Vector{}) in.problem("body", "gravity in a gas with bodies is not possible");
     for (const EdgeConfig& edge : gas.edges) {
       const auto number = static_cast<std::size_t>(edge.side);
       const auto opposite = static_cast<BoxSide>(number ^ 1);

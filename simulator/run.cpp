@@ -12,6 +12,7 @@
 
 #include "models/programs/files.hpp"
 #include "models/programs/progress.hpp"
+#include "simulator/gas/bodies_setup.hpp"
 #include "simulator/gates.hpp"
 #include "simulator/output/checkpoint.hpp"
 #include "simulator/output/figures.hpp"
@@ -70,6 +71,7 @@ class Run {
 
   RunResult begin() {
     log_.line(fmt::format("{}: {} {}s, {} threads", case_.title, count_points(s_), name_of_points(s_), omp_get_max_threads()));
+    for (const std::string& warning : gas::warnings_of_bodies(case_)) log_.line("warning: " + warning);
     return guarded([&] {
       history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), 0);
       add_row();

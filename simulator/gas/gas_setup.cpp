@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "models/equation_of_state/thermodynamics.hpp"
+#include "simulator/gas/bodies_setup.hpp"
 #include "simulator/solid/shapes.hpp"
 
 namespace brisance::simulator::gas {
@@ -53,6 +54,7 @@ Gas make_gas(const Case& c, Domain& domain) {
       beyond = filling_of(config, gas.fluids, edge);
     made.beyond = [beyond](const Vector&, double) { return beyond; };
   }
+  for (const GasBodyConfig& body : config.bodies) gas.bodies.all.push_back(make_body(c, body));
   std::vector<Filling> fillings;
   for (const FillConfig& fill : config.fills) fillings.push_back(filling_of(config, gas.fluids, fill));
   const auto filling = [&](const Vector& x, double) {

@@ -19,11 +19,20 @@ struct BodyBooks {
   InternalEnergy internal;
 };
 
+/// What a body in the gas does and has received from the gas.
+struct GasBodyBooks {
+  std::string name;
+  Vector displacement{}, velocity{}, force{}, impulse{};  // m, m/s of a driven body, N over the last step, N s
+  double work = 0.0;                                      // J
+  double kinetic = 0.0;                                   // J, of a driven body
+};
+
 /// What the gas holds, and what has come in since the start: through each edge and by gravity.
 struct GasBooks {
   std::vector<std::string> fluids;
   gas::Totals state, initial;
   std::vector<std::pair<std::string, gas::Totals>> entries;
+  std::vector<GasBodyBooks> bodies;
 
   /// What the gas holds now that it neither held at the start nor received.
   gas::Totals residual() const;

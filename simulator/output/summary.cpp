@@ -22,6 +22,11 @@ std::string in_words(const GasBooks& books) {
   for (const auto& [name, through] : books.entries)
     if (through.energy != 0.0) row("by " + name, through);
   row("in no book", books.residual());
+  if (!books.bodies.empty())
+    text += fmt::format("  {:24} {:>14} {:>14} {:>14}\n", "body", "force [N]", "work [J]", "moved [m]");
+  for (const GasBodyBooks& body : books.bodies)
+    text += fmt::format("  {:24} {:14.6g} {:14.6g} {:14.6g}\n", body.name, magnitude(body.force), body.work,
+                        magnitude(body.displacement));
   return text;
 }
 
