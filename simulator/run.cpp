@@ -53,7 +53,8 @@ std::string clock_text(double seconds) {
 
 /// Why a step was too large.
 std::string why_rejected(const Simulation& s, double dt) {
-  return s.bodies.empty() ? "a cell of gas would be left without volume or energy" : worst_point(s, dt);
+  return s.bodies.empty() ? "a cell of gas would be left without volume or energy, or a thin wall would pass over its gas"
+                          : worst_point(s, dt);
 }
 
 /// What a run writes, and when.
