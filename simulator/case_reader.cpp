@@ -549,6 +549,21 @@ class CaseReader : public KeyReader<CaseReader> {
                    fmt::format("{}: its temperature would be ignored: no fluid conducts; give one a conductivity", side));
     }
   }
+  /// The limits of simulator/gas/bodies.hpp.
+  void check_with_bodies(TableReader& in, const GasConfig& gas) {
+    const auto refuse = [&](bool when, std::string_view what) {
+      if (when) in.problem("body", std::string(what) + " in a gas with bodies is not possible; remove one of the two");
+    };
+    refuse(case_.gravity != Vector{}, "gravity");
+    refuse(gas.implicit, "the implicit option");
+    refuse(gas.scheme == GasScheme::ice_classic, "the classic scheme");
+    refuse(!gas.reactions.empty(), "a reaction");
+    refuse(gas.heat_exchange > 0.0 || std::any_of(gas.fluids.begin(), gas.fluids.end(),
+                                                  [](const FluidConfig& f) {
+                                                    return f.viscosity > 0.0 || f.bulk_viscosity > 0.0 || f.conductivity > 0.0;
+                                                  }),
+           "viscosity or conduction");
+  }
   /// The limits of simulator/gas/classic.hpp.
   void check_classic(TableReader& in, const GasConfig& gas) {
     const auto refuse = [&](bool when, std::string_view reason) {
@@ -600,6 +615,30 @@ class CaseReader : public KeyReader<CaseReader> {
                    "a programmed detonation starts from boxes, spheres and unions of them; distances to other shapes "
                    "are not known");
   }
+  void check(TableReader& in, GasBodyConfig& body, const std::vector<GasBodyConfig>& others) {
+    require_own_name(in, body, others);
+    require_file_name(in, body.name);
+    if (!geometry_known_) return;
+    if (dimensions() == 1) return in.problem("in one dimension there are no bodies in the gas; take plane");
+    require_component_in_geometry(in, body.axis);
+    const bool round = is_round(case_.geometry);
+    if (body.mass) {
+      if (body.velocity != Vector{} || body.rotation != Vector{} || body.radial_velocity != 0.0 || body.amplitude)
+        in.problem("mass", "the gas drives a body with a mass from rest: a motion would be ignored; remove one of the two");
+      if (round && body.axis != Axis::y) in.problem("axis", "about an axis of symmetry a body can only move along it: y");
+    } else {
+      if (round && body.velocity[0] != 0.0) in.problem("velocity", "about an axis of symmetry a body can only move along it");
+      if (round && body.rotation != Vector{}) in.problem("rotation", "about an axis of symmetry a body cannot turn");
+      if (!round && dimensions() == 2 && (body.rotation[0] != 0.0 || body.rotation[1] != 0.0))
+        in.problem("rotation", "in the plane a body can only turn about z; give [0, 0, ...]");
+    }
+    if (round && body.radial_velocity != 0.0 && body.centre[0] != 0.0)
+      in.problem("centre", "about an axis of symmetry the centre of a radial motion lies on it: x = 0");
+    if ((body.radial_velocity != 0.0) != (body.radius > 0.0))
+      in.problem(body.radius > 0.0 ? "radius" : "radial_velocity", body.radius > 0.0
+                                                                       ? "it would be ignored: there is no radial velocity"
+                                                                       : "give `radius` as well: where it is so");
+  }
   void check_box(TableReader& in, GasConfig& gas) {
     for (std::size_t k = 0; k < dimensions() && case_.cell_size > 0.0; ++k) {
       if (!(gas.lower[k] < gas.upper[k]))
@@ -628,6 +667,7 @@ class CaseReader : public KeyReader<CaseReader> {
     const bool round = is_round(case_.geometry);
     if (round && gas.lower[0] < 0.0) in.problem("lower", "r = " + in_metres(gas.lower[0]) + "; a radius is not negative");
     if (round && case_.gravity[0] != 0.0) in.problem("lower", "gravity along r is not possible");
+    if (!gas.bodies.empty()) check_with_bodies(in, gas);
     for (const EdgeConfig& edge : gas.edges) {
       const auto number = static_cast<std::size_t>(edge.side);
       const auto opposite = static_cast<BoxSide>(number ^ 1);

@@ -188,6 +188,20 @@ struct ReactionConfig {
   std::string reactant, product;  // fluids
   std::vector<IgnitionConfig> ignitions;
 };
+/// A rigid body of particles in the gas. Its motion is prescribed, or the gas drives it along an axis.
+struct GasBodyConfig {
+  std::string name;
+  ShapePointer shape;
+  int particles_per_direction = 2;
+  Vector velocity{};               // m/s
+  Vector rotation{};               // rad/s, about `centre`
+  Vector centre{};                 // m, at the start; moves along
+  double radial_velocity = 0.0;    // m/s, of what is at `radius` from the centre at the start; every part keeps its volume
+  double radius = 0.0;             // m
+  std::optional<Table> amplitude;  // of all three, against s
+  std::optional<double> mass;      // kg: the gas drives it
+  Axis axis = Axis::x;             // along which
+};
 
 /// Gas in a box of cells, with walls where no edge says otherwise. Later fills lie over earlier ones.
 struct GasConfig {
@@ -203,6 +217,7 @@ struct GasConfig {
   std::vector<FillConfig> fills;
   std::vector<EdgeConfig> edges;
   std::vector<ReactionConfig> reactions;
+  std::vector<GasBodyConfig> bodies;
 };
 
 // Observation --------------------------------------------------------------------------------------------------------

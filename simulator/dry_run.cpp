@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "simulator/gas/bodies_setup.hpp"
 #include "simulator/run.hpp"
 #include "simulator/set_up_warnings.hpp"
 #include "simulator/step_size.hpp"
@@ -52,10 +53,13 @@ DryRun dry_run(const Case& c, Simulation& s) {
   DryRun result;
   for (const Body& body : s.bodies) result.points.emplace_back(body.name, body.particles.size);
   if (!s.gas.empty()) result.points.emplace_back("gas", s.gas.cells.count());
+  for (const gas::MovingBody& body : s.gas.bodies.all)
+    result.points.emplace_back(body.name, static_cast<std::int64_t>(body.places.size()));
   const auto points = static_cast<double>(count_points(s));
   const StepSize first = next_step(s, c.numerics, c.end_time);
   result.first_step = first.dt, result.limit = first.limit;
   result.warnings = warnings_of(c, s, result.first_step);
+  for (const std::string& warning : gas::warnings_of_bodies(c)) result.warnings.push_back(warning);
   using Clock = std::chrono::steady_clock;
   constexpr double long_enough = 1.0;  // s
   constexpr int most_steps = 20;

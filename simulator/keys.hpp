@@ -201,6 +201,26 @@ inline constexpr auto keys<ReactionConfig> =
                    "what is lit: a surface, however cold it is; where a programmed detonation starts"}};
 
 template <>
+inline constexpr auto keys<GasBodyConfig> = std::tuple{
+    Key{"name", &GasBodyConfig::name, Unit::one, "what the body is called in output", any_value, required},
+    Key{"shape", &GasBodyConfig::shape, Unit::one,
+        "what it fills at the start; 2 cells thick at least, or gas leaks through it", any_value, required},
+    Key{"particles_per_direction", &GasBodyConfig::particles_per_direction, Unit::one,
+        "particles in a cell along each direction", between(1, 8)},
+    Key{"velocity", &GasBodyConfig::velocity, Unit::m_per_s, "its velocity"},
+    Key{"rotation", &GasBodyConfig::rotation, Unit::per_s, "angular velocity about x, y and z, in rad/s", any_value, false,
+        Components::three},
+    Key{"centre", &GasBodyConfig::centre, Unit::m, "centre of the rotation and the radial motion at the start; moves along"},
+    Key{"radial_velocity", &GasBodyConfig::radial_velocity, Unit::m_per_s,
+        "away from the centre, of what is at `radius` at the start; every part keeps its volume"},
+    Key{"radius", &GasBodyConfig::radius, Unit::m, "where the radial velocity is given", non_negative},
+    Key{"amplitude", &GasBodyConfig::amplitude, Unit::one, "factor on all velocities; a table over time"},
+    Key{"mass", &GasBodyConfig::mass, Unit::kg,
+        "of a body that starts at rest and that the gas drives along `axis`, instead of velocities; per metre in the plane",
+        positive},
+    Key{"axis", &GasBodyConfig::axis, Unit::one, "direction in which the gas drives it"}};
+
+template <>
 inline constexpr auto keys<GasConfig> = std::tuple{
     Key{"lower", &GasConfig::lower, Unit::m, "lower corner of the box, a multiple of cell_size", any_value, required},
     Key{"upper", &GasConfig::upper, Unit::m, "upper corner of the box, a multiple of cell_size", any_value, required},
@@ -223,7 +243,8 @@ inline constexpr auto keys<GasConfig> = std::tuple{
     Key{"fill", &GasConfig::fills, Unit::one, "what a region holds at the start; later ones lie over earlier ones", any_value,
         required},
     Key{"edge", &GasConfig::edges, Unit::one, "a side of the box that is no wall"},
-    Key{"reaction", &GasConfig::reactions, Unit::one, "a fluid burns to another"}};
+    Key{"reaction", &GasConfig::reactions, Unit::one, "a fluid burns to another"},
+    Key{"body", &GasConfig::bodies, Unit::one, "a rigid body in the gas"}};
 
 // Observation: [[gauge]], [[measure]], [[figure]], [output], [gates] -----------------------------------------------------
 

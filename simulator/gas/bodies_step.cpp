@@ -805,6 +805,25 @@ void book_sides(Gas& gas, double dt) {
   }
 }
 
+/// Whether the gas of some own cell has left through one face and come in through another while the wall passed: it would be
+/// carried through a thin wall. In a shorter step the cell is closed in between.
+bool gas_changes_sides(const Gas& gas) {
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  for (const CutCell& c : bodies.step.cut) {
+    if (!(bodies.space.volume[c.cell] > 0.0 && bodies.next_space.volume[c.cell] > 0.0)) continue;
+    if (!gas.cells.contains(w.index(c.cell))) continue;
+    bool before = false, after = false, both = false;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(w.dimensions); ++a)
+      for (const std::size_t face : {c.cell, c.cell + offset(w, a)}) {
+        const bool was = bodies.space.area[a][face] > 0.0, is = bodies.next_space.area[a][face] > 0.0;
+        before = before || was, after = after || is, both = both || (was && is);
+      }
+    if (before && after && !both) return true;
+  }
+  return false;
+}
+
 /// Finds where the bodies go, and the cut cells on their way.
 std::vector<MovingBody::State> move_bodies(Gas& gas, double dt) {
   Bodies& bodies = gas.bodies;
@@ -863,7 +882,7 @@ Outcome advance_with_bodies(Gas& gas, double dt, Domain& domain) {
   bool good = true;
   if (here) {
     find_donors(gas);
-    good = nothing_is_overdrawn(gas, dt);
+    good = nothing_is_overdrawn(gas, dt) && !gas_changes_sides(gas);
     remap(gas, dt);
     redistribute_all(gas, entrapped);
     good = good && all_is_well(gas);

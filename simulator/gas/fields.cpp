@@ -85,7 +85,8 @@ std::optional<CellPlace> find_cell(const Gas& gas, const Vector& position) {
     index[a] = std::min(static_cast<int>(std::floor(position[a] / cells.cell_size)), cells.upper[a] - 1);
     if (position[a] > cells.upper[a] * cells.cell_size || index[a] < cells.lower[a]) return std::nullopt;
   }
-  return cells.find(index);
+  const std::optional<CellPlace> place = cells.find(index);
+  return place && open_part(gas, place->block, place->cell) > 0.0 ? place : std::nullopt;
 }
 
 }  // namespace brisance::simulator::gas

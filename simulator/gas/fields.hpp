@@ -21,15 +21,16 @@ struct Field {
 std::vector<Field> fields(int dimensions, const std::vector<std::string>& fluids);
 std::vector<Field> fields_of(const Gas& gas);
 
-/// The cell that holds a position; none outside the box and in other processes.
+/// The cell that holds a position; none outside the box, within bodies and in other processes.
 std::optional<CellPlace> find_cell(const Gas& gas, const Vector& position);
-/// Calls f(place) for the cells of the box that this process owns, in Morton order of the blocks.
+/// Calls f(place) for the cells of the box that this process owns and that hold gas, in Morton order of the blocks.
 template <class F>
 void for_each_cell(const Gas& gas, F&& f) {
   for (const std::int32_t b : gas.cells.mine) {
     const auto block = static_cast<std::size_t>(b);
     for (int c = 0; c < 8 * gas.cells.packs(); ++c)
-      if (!gas.cells.partial[block] || gas.cells.contains(gas.cells.index(block, c))) f(CellPlace{block, c});
+      if ((!gas.cells.partial[block] || gas.cells.contains(gas.cells.index(block, c))) && open_part(gas, block, c) > 0.0)
+        f(CellPlace{block, c});
   }
 }
 

@@ -239,7 +239,7 @@ std::vector<Totals> passed(const Gas& gas, Domain& domain) {
     result.push_back(received);
   }
   if (!gas.bodies.empty()) {
-    const auto lost = [&](std::size_t n) { return -gas.bodies.entrapped[n].value(); };
+    const auto lost = [&](std::size_t n) { return 0.0 - gas.bodies.entrapped[n].value(); };
     Totals entrapped{std::vector<double>(fluids, 0.0), {}, lost(gas.bodies.entrapped.size() - 1), 0.0};
     for (std::size_t r = 0; r < fluids; ++r) entrapped.mass[r] = lost(r);
     for (std::size_t a = 0; a < static_cast<std::size_t>(gas.dimensions()); ++a) entrapped.momentum[a] = lost(fluids + a);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "simulator/gas/bodies_setup.hpp"
 #include "simulator/gas/initial_state.hpp"
 
 namespace brisance::simulator::gas {
@@ -51,6 +52,7 @@ Gas make_gas(const Case& c, Domain& domain) {
     for (const IgnitionConfig& ignition : reaction.ignitions) burn.ignitions.push_back({ignition.shape, ignition.time});
     gas.burns.push_back(std::move(burn));
   }
+  for (const GasBodyConfig& body : config.bodies) gas.bodies.all.push_back(make_body(c, body));
   const InitialState start(config, gas.fluids, gas.cells);
   fill_in_portions(
       gas, [&](const Vector& middle) { return start.in_cell(middle); }, domain);

@@ -11,7 +11,6 @@ struct Search {
   const Window& w;
   const OpenSpace& after;
   const CutCells& step;
-  double enough;  // m^3
   Neighbourhood found;
   double volume = 0.0;
 
@@ -64,7 +63,7 @@ struct Search {
 
 Neighbourhood neighbourhood_of(const Window& w, const OpenSpace& after, const CutCells& step, const CutCell& cut,
                                double enough) {
-  Search search{w, after, step, enough, {}, 0.0};
+  Search search{w, after, step, {}, 0.0};
   search.found.cell = cut.cell;
   search.add(cut.cell);
   // Away from the wall, along the axes by how much the wall faces them.

@@ -9,7 +9,7 @@
 
 namespace brisance::simulator {
 
-enum class Extensive { mass, energy, momentum, angular_momentum };
+enum class Extensive { mass, energy, momentum, angular_momentum, force };
 
 /// The unit of what is shown, "J/m".
 Unit unit_of(Extensive quantity, Geometry geometry);

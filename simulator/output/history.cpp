@@ -49,14 +49,25 @@ GasBooks gas_books_of(const Simulation& s) {
   books.state = scaled(gas::totals(s.gas, *s.domain)), books.initial = scaled(s.gas.initial);
   books.plain = s.gas.plain, books.flattened = s.gas.flattened;
   const std::vector<gas::Totals> passed = gas::passed(s.gas, *s.domain);
+  const std::size_t edges = s.gas.edges.size();
+  const std::vector<gas::MovingBody>& bodies = s.gas.bodies.all;
   for (std::size_t e = 0; e < passed.size(); ++e)
-    books.entries.emplace_back(e < s.gas.edges.size() ? s.gas.edges[e].name : "gravity", scaled(passed[e]));
+    books.entries.emplace_back(e < edges                       ? s.gas.edges[e].name
+                               : e == edges                    ? "gravity"
+                               : e - edges - 1 < bodies.size() ? bodies[e - edges - 1].name
+                                                               : "entrapped",
+                               scaled(passed[e]));
   books.capped = s.gas.capped;
   const std::vector<gas::Totals> burned = gas::burned(s.gas, *s.domain);
   for (std::size_t n = 0; n < burned.size(); ++n) {
     const gas::Burn& burn = s.gas.burns[n];
     const gas::Totals made = scaled(burned[n]);
     books.reactions.push_back({burn.name, -made.mass[static_cast<std::size_t>(burn.reactant)], made});
+  }
+  for (const gas::MovingBody& body : bodies) {
+    const Vector impulse = {body.impulse[0].value(), body.impulse[1].value(), body.impulse[2].value()};
+    books.bodies.push_back({body.name, body.state.displacement, body.state.velocity, whole * body.force, whole * impulse,
+                            whole * body.work.value(), whole * body.kinetic_energy()});
   }
   return books;
 }
@@ -76,12 +87,27 @@ std::vector<BookEntry> entries_of(const GasBooks& books, Geometry geometry) {
   };
   add("gas", books.state, "momentum");
   entries.push_back({"gas_kinetic_energy", energy, books.state.kinetic});
-  for (const auto& [name, through] : books.entries)
+  const std::size_t beyond = books.entries.size() - (books.bodies.empty() ? 0 : books.bodies.size() + 1);
+  for (std::size_t e = 0; e < beyond; ++e) {
+    const auto& [name, through] = books.entries[e];
     if (name != "gravity" || through.energy != 0.0 || through.momentum != Vector{}) add(name, through, "impulse");
-  for (const ReactionBook& reaction : books.reactions) {
-    entries.push_back({reaction.name + "_burned_mass", "kg", reaction.burned});
-    entries.push_back({reaction.name + "_heat", "J", reaction.made.energy});
   }
+  for (const ReactionBook& reaction : books.reactions) {
+    entries.push_back({reaction.name + "_burned_mass", mass, reaction.burned});
+    entries.push_back({reaction.name + "_heat", energy, reaction.made.energy});
+  }
+  for (const GasBodyBooks& body : books.bodies) {
+    const auto vector = [&](std::string_view what, Unit unit, const Vector& v) {
+      for (std::size_t a = first; a < last; ++a)
+        entries.push_back({fmt::format("{}_{}_{}", body.name, what, "xyz"[a]), unit, v[a]});
+    };
+    vector("displacement", Unit::m, body.displacement), vector("velocity", Unit::m_per_s, body.velocity);
+    vector("force", unit_of(Extensive::force, geometry), body.force),
+        vector("impulse", unit_of(Extensive::momentum, geometry), body.impulse);
+    entries.push_back({body.name + "_work", energy, body.work});
+    entries.push_back({body.name + "_kinetic_energy", energy, body.kinetic});
+  }
+  if (!books.bodies.empty()) add("entrapped", books.entries.back().second, "momentum");
   add("gas_residual", books.residual(), "momentum");
   return entries;
 }

@@ -25,6 +25,13 @@ struct ReactionBook {
   double burned = 0.0;  // kg
   gas::Totals made;     // of each fluid, and the heat that it has set free
 };
+/// What a body in the gas does and has received from the gas.
+struct GasBodyBooks {
+  std::string name;
+  Vector displacement{}, velocity{}, force{}, impulse{};  // m, m/s of a driven body, N over the last step, N s
+  double work = 0.0;                                      // J
+  double kinetic = 0.0;                                   // J, of a driven body
+};
 
 /// What the gas holds, and what has come in since the start: through each edge and by gravity.
 struct GasBooks {
@@ -34,6 +41,7 @@ struct GasBooks {
   std::int64_t plain = 0, flattened = 0;  // as in Gas, of this process
   std::vector<ReactionBook> reactions;
   std::int64_t capped = 0;  // times that a cell wanted to burn more in a step than it may
+  std::vector<GasBodyBooks> bodies;
 
   /// What the gas holds now that it neither held at the start nor received, nor made by reaction.
   gas::Totals residual() const;

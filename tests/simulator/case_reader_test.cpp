@@ -309,6 +309,78 @@ shape = { box = { lower = [0, 0], upper = ["5 mm", "10 mm"] } }
 time = "1 us"
 )";
 
+/// Every key of a body in the gas.
+const std::string bodies_in_gas = R"(
+geometry = "plane"
+cell_size = "1 mm"
+end_time = "1 us"
+[gas]
+lower = [0, 0]
+upper = ["20 mm", "10 mm"]
+[[gas.fluid]]
+name = "air"
+material = "air.toml"
+[[gas.fill]]
+temperature = "300 K"
+pressure = "1 atm"
+[[gas.body]]
+name = "ring"
+shape = { sphere = { centre = ["5 mm", "5 mm"], radius = "4 mm", inner_radius = "2 mm" } }
+particles_per_direction = 3
+velocity = ["100 m/s", 0]
+rotation = [0, 0, 5]
+centre = ["5 mm", "5 mm"]
+radial_velocity = "10 m/s"
+radius = "2 mm"
+amplitude = { time = [0, "1 us"], value = [0, 1] }
+[[gas.body]]
+name = "shot"
+shape = { sphere = { centre = ["15 mm", "5 mm"], radius = "3 mm" } }
+mass = "0.2 kg"
+axis = "y"
+)";
+
+TEST(CaseReader, ReadsBodiesInTheGas) {
+  const Case c = read_case(written(bodies_in_gas));
+  const std::vector<GasBodyConfig>& bodies = c.gas.value().bodies;
+  ASSERT_EQ(bodies.size(), 2u);
+  EXPECT_EQ(bodies[0].rotation, (Vector{0, 0, 5}));
+  EXPECT_EQ(bodies[0].radial_velocity, 10.0);
+  EXPECT_EQ((*bodies[0].amplitude)(0.5e-6), 0.5);
+  EXPECT_FALSE(bodies[0].mass.has_value());
+  EXPECT_EQ(bodies[1].mass, 0.2);
+  EXPECT_EQ(bodies[1].axis, Axis::y);
+}
+
+TEST(CaseReader, RefusesMotionsThatABodyInTheGasCannotMake) {
+  const auto changed = [](const std::string& from, const std::string& to) {
+    std::string text = bodies_in_gas;
+    text.replace(text.find(from), from.size(), to);
+    return problems_of(text);
+  };
+  const auto expect = [](const std::string& problems, const std::string& message) {
+    EXPECT_NE(problems.find(message), std::string::npos) << "wanted: " << message << "\ngot:    " << problems;
+  };
+  expect(changed("mass = \"0.2 kg\"", "mass = \"0.2 kg\"\nvelocity = [1, 0]"), "gas.body.1.mass: the gas drives");
+  expect(changed("rotation = [0, 0, 5]", "rotation = [1, 0, 5]"), "gas.body.0.rotation: in the plane");
+  expect(changed("radius = \"2 mm\"\namp", "amp"), "gas.body.0.radial_velocity: give `radius`");
+  expect(changed("radial_velocity = \"10 m/s\"", ""), "gas.body.0.radius: it would be ignored");
+  expect(changed("name = \"shot\"", "name = \"ring\""), "is given twice");
+  expect(changed("axis = \"y\"", "axis = \"z\""), "gas.body.1.axis");
+  std::string round = bodies_in_gas;
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"\"plane\"", "\"axisymmetric\""},
+                                 {"[\"5 mm\", \"5 mm\"]", "[0, \"5 mm\"]"},
+                                 {"[\"5 mm\", \"5 mm\"]", "[0, \"5 mm\"]"},
+                                 {"[\"15 mm\", \"5 mm\"]", "[0, \"5 mm\"]"}})
+    round.replace(round.find(from), from.size(), to);
+  expect(problems_of(round), "gas.body.0.velocity: about an axis of symmetry a body can only move along it");
+  expect(problems_of(round), "gas.body.0.rotation: about an axis of symmetry a body cannot turn");
+  expect(changed("end_time", "gravity = [0, -9.81]\nend_time"), "gravity in a gas with bodies");
+  expect(changed("[gas]", "[gas]\nimplicit = true"), "the implicit option in a gas with bodies");
+  expect(changed("[gas]", "[gas]\nscheme = \"ice_classic\""), "the classic scheme in a gas with bodies");
+  expect(changed("\"air.toml\"", "\"air.toml\"\nviscosity = \"1 Pa s\""), "viscosity or conduction in a gas with bodies");
+}
+
 TEST(CaseReader, ReadsTheGas) {
   const Case c = read_case(written(gases));
   ASSERT_TRUE(c.gas.has_value());
@@ -382,7 +454,7 @@ INSTANTIATE_TEST_SUITE_P(
         HostileGas{"material = \"air.toml\"", "material = \"air.toml\"\nviscosity = \"1 m\"", "viscosity"}));
 
 TEST(CaseReader, AWrittenCaseReadsBackToTheSame) {
-  for (const std::string& text : {bar, everything, burning}) {
+  for (const std::string& text : {bar, everything, burning, bodies_in_gas}) {
     const std::string once = write_case(read_case(written(text)));
     EXPECT_EQ(write_case(read_case(written(once, "again.toml"))), once);
   }
@@ -390,8 +462,9 @@ TEST(CaseReader, AWrittenCaseReadsBackToTheSame) {
 
 TEST(CaseReader, AWrittenCaseHoldsEveryKey) {
   // The text that is written is what the comparison above rests on: no key may be missing from it.
-  const std::string text =
-      without_comments(write_case(read_case(written(everything)))) + without_comments(write_case(read_case(written(burning))));
+  const std::string text = without_comments(write_case(read_case(written(everything)))) +
+                           without_comments(write_case(read_case(written(burning)))) +
+                           without_comments(write_case(read_case(written(bodies_in_gas))));
   for (const KeyDescription& key : all_keys()) {
     if (key.path.find("cylinder") != std::string::npos || key.path.find("tube") != std::string::npos)
       continue;                                            // written as cones

@@ -43,6 +43,28 @@ TEST(GasRun, GoesOnFromACheckpointWithTheSameBits) {
     EXPECT_TRUE(text_of(parts / name) == text_of(directory / "whole" / name)) << name;
 }
 
+/// With a body that the gas drives.
+TEST(GasRun, WithABodyGoesOnFromACheckpointWithTheSameBits) {
+  const fs::path directory = scratch();
+  const Case c = read_case(shipped("gas_driven_projectile"), {"cell_size=20 mm", "output.figures=false", "end_time=0.2 ms"});
+  const auto fresh = [&](const std::string& name) {
+    prepare_directory(directory / name, c, false);
+    return directory / name;
+  };
+  Simulation whole = set_up(c);
+  const RunResult uninterrupted = run(c, whole, {fresh("whole"), {}});
+  ASSERT_EQ(uninterrupted.ending, Ending::done) << uninterrupted.message;
+  const fs::path parts = fresh("parts");
+  Simulation first = set_up(c), second = set_up(c);
+  EXPECT_EQ(run(c, first, {parts, {}, 17}).ending, Ending::interrupted);
+  const RunResult resumed = resume(c, second, {parts, {}});
+  ASSERT_EQ(resumed.ending, Ending::done) << resumed.message;
+  EXPECT_TRUE(gas::numbers_of(second.gas) == gas::numbers_of(whole.gas));
+  EXPECT_EQ(text_of(parts / "history.csv"), text_of(directory / "whole" / "history.csv"));
+  EXPECT_TRUE(contains(text_of(parts / "history.csv"), "projectile_force_x [N]"));
+  EXPECT_GT(second.gas.bodies.all.at(0).state.velocity[0], 30.0);
+}
+
 TEST(GasRun, IsCheckedBeforeAndDrawnAfter) {
   const auto call = [](const std::vector<std::string>& words) {
     std::vector<std::string> all = {"brisance"};

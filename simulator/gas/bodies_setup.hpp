@@ -1,0 +1,18 @@
+#pragma once
+// From the case to the bodies in the gas.
+
+#include <string>
+#include <vector>
+
+#include "simulator/config.hpp"
+#include "simulator/gas/bodies.hpp"
+
+namespace brisance::simulator::gas {
+
+/// The particles of a body and its motion. Throws std::runtime_error if it gets no particles.
+MovingBody make_body(const Case& c, const GasBodyConfig& config);
+
+/// Of walls through which gas would leak.
+std::vector<std::string> warnings_of_bodies(const Case& c);
+
+}  // namespace brisance::simulator::gas
