@@ -46,7 +46,7 @@ TEST(ReactionCase, RunsStopsAndGoesOnWithTheSameBits) {
   EXPECT_TRUE(gas::numbers_of(second.gas) == gas::numbers_of(whole.gas));
   EXPECT_EQ(text_of(parts / "history.csv"), text_of(directory / "whole" / "history.csv"));
   const std::string history = text_of(parts / "history.csv");
-  for (const char* column : {"detonation_burned_mass [kg]", "detonation_heat [J]"})
+  for (const char* column : {"detonation_burned_mass [kg/m^2]", "detonation_heat [J/m^2]"})
     EXPECT_TRUE(contains(history, column)) << column;
   EXPECT_TRUE(contains(in_words(uninterrupted.summary), "burned by detonation"));
 }

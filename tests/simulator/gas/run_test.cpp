@@ -61,7 +61,7 @@ TEST(GasRun, WithABodyGoesOnFromACheckpointWithTheSameBits) {
   ASSERT_EQ(resumed.ending, Ending::done) << resumed.message;
   EXPECT_TRUE(gas::numbers_of(second.gas) == gas::numbers_of(whole.gas));
   EXPECT_EQ(text_of(parts / "history.csv"), text_of(directory / "whole" / "history.csv"));
-  EXPECT_TRUE(contains(text_of(parts / "history.csv"), "projectile_force_x [N]"));
+  EXPECT_TRUE(contains(text_of(parts / "history.csv"), "projectile_force_x [N/m]"));
   EXPECT_GT(second.gas.bodies.all.at(0).state.velocity[0], 30.0);
 }
 
