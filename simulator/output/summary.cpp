@@ -37,7 +37,8 @@ std::string gas_in_words(const Books& all) {
     text += fmt::format("  for the sake of positive energies {} cell-steps were first order, {} slopes flatter\n", books.plain,
                         books.flattened);
   if (!books.bodies.empty())
-    text += fmt::format("  {:24} {:>14} {:>14} {:>14}\n", "body", "force [N]", "work [J]", "moved [m]");
+    text += fmt::format("  {:24} {:>14} {:>14} {:>14}\n", "body", "force [" + unit(Extensive::force, all) + "]",
+                        "work [" + unit(Extensive::energy, all) + "]", "moved [m]");
   for (const GasBodyBooks& body : books.bodies)
     text += fmt::format("  {:24} {:14.6g} {:14.6g} {:14.6g}\n", body.name, magnitude(body.force), body.work,
                         magnitude(body.displacement));
