@@ -214,6 +214,9 @@ std::vector<Entry> entries() {
   const auto relative_L1 = [](double limit) {
     return Goal{"L1 of the density over its mean", limit, relative_error("density")};
   };
+  const auto relative = [](const std::string& field, double limit) {
+    return Goal{"L1 of the " + field + " over its mean", limit, relative_error(field)};
+  };
   const Goal closed{"energy in no book, of all", 1e-13, lost_energy};
 
   add("sod", "density", {L1(1.6e-3), closed});
@@ -298,6 +301,14 @@ std::vector<Entry> entries() {
                             }}});
   };
   impact("murnaghan_impact"), impact("tillotson_impact");
+  add("couette", "speed", {{"error of the speed, of the wall's", 0.005, [](const Ran& ran) {
+                              const Line line = line_of(ran, "speed");
+                              return error("speed")(ran) / peak(line.exact);
+                            }}});
+  add("closed_bomb", "pressure", {relative("pressure", 0.03)});
+  add("detonation_pbx_9501", "pressure", {relative("pressure", 0.03)});
+  add("gas_driven_projectile", "pressure", {relative("pressure", 0.01)});
+  add("supersonic_wedge", "pressure", {relative("pressure", 0.03)});
   return all;
 }
 

@@ -479,6 +479,8 @@ class CaseReader : public KeyReader<CaseReader> {
     } else if (state.density.has_value() == state.temperature.has_value())
       in.problem(state.density ? "there are a density and a temperature; give one of the two"
                                : "neither density nor temperature is given; give one of the two");
+    else if (state.pressure)
+      check_exists(in, state);
   }
   void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& others) {
     Elsewhere elsewhere;
@@ -563,6 +565,8 @@ class CaseReader : public KeyReader<CaseReader> {
                                                     return f.viscosity > 0.0 || f.bulk_viscosity > 0.0 || f.conductivity > 0.0;
                                                   }),
            "viscosity or conduction");
+    refuse(std::any_of(gas.fills.begin(), gas.fills.end(), [](const FillConfig& f) { return f.energy.has_value(); }),
+           "the energy of a fill");
   }
   /// The limits of simulator/gas/classic.hpp.
   void check_classic(TableReader& in, const GasConfig& gas) {
@@ -574,6 +578,7 @@ class CaseReader : public KeyReader<CaseReader> {
                        [](const EdgeConfig& e) { return e.kind != EdgeKind::wall && e.kind != EdgeKind::periodic; }),
            "has walls and periodic sides only; remove the other edges, or use scheme = \"ice\"");
     refuse(case_.gravity != Vector{}, "has no gravity; remove it, or use scheme = \"ice\"");
+    refuse(gas.least_mach != GasConfig{}.least_mach, "has no dissipation of faces; remove least_mach, or use scheme = \"ice\"");
     refuse(gas.implicit, "is explicit; remove implicit, or use scheme = \"ice\"");
     refuse(
         std::any_of(gas.fluids.begin(), gas.fluids.end(),
@@ -627,6 +632,11 @@ class CaseReader : public KeyReader<CaseReader> {
         in.problem("mass", "the gas drives a body with a mass from rest: a motion would be ignored; remove one of the two");
       if (round && body.axis != Axis::y) in.problem("axis", "about an axis of symmetry a body can only move along it: y");
     } else {
+      if (body.axis != Axis::x) in.problem("axis", "it would be ignored: only a body with a mass is driven along it");
+      const bool turns = body.rotation != Vector{} || body.radial_velocity != 0.0;
+      if (body.centre != Vector{} && !turns) in.problem("centre", "it would be ignored: the body neither turns nor grows");
+      if (body.amplitude && !turns && body.velocity == Vector{})
+        in.problem("amplitude", "it would be ignored: there is no velocity that it is a factor on");
       if (round && body.velocity[0] != 0.0) in.problem("velocity", "about an axis of symmetry a body can only move along it");
       if (round && body.rotation != Vector{}) in.problem("rotation", "about an axis of symmetry a body cannot turn");
       if (!round && dimensions() == 2 && (body.rotation[0] != 0.0 || body.rotation[1] != 0.0))
@@ -638,6 +648,26 @@ class CaseReader : public KeyReader<CaseReader> {
       in.problem(body.radius > 0.0 ? "radius" : "radial_velocity", body.radius > 0.0
                                                                        ? "it would be ignored: there is no radial velocity"
                                                                        : "give `radius` as well: where it is so");
+  }
+  /// A state that the fluid's law does not have.
+  void check_exists(TableReader& in, const GasStateConfig& state) {
+    for (const FluidConfig& fluid : gas_->fluids) {
+      if (fluid.name != state.fluid) continue;
+      namespace eos = equation_of_state;
+      const EquationOfState& law = fluid.material.material.equation_of_state;
+      if (eos::caloric(law) != eos::Caloric::complete) continue;
+      const double density = state.density ? *state.density : eos::density_at(law, *state.pressure, *state.temperature);
+      constexpr double close = 1e-3;
+      if (density > 0.0) {
+        const double energy = eos::energy_at_pressure(law, density, *state.pressure), p = eos::pressure(law, density, energy);
+        if (std::abs(p - *state.pressure) <= close * std::abs(*state.pressure)) continue;
+        in.problem("pressure", fmt::format("at {:.6g} kg/m^3 {} has no state with {:.6g} Pa; the nearest is {:.6g} Pa", density,
+                                           in_quotes(fluid.name), *state.pressure, p));
+      } else {
+        in.problem("pressure", fmt::format("{} has no state with {:.6g} Pa and {:.6g} K", in_quotes(fluid.name),
+                                           *state.pressure, *state.temperature));
+      }
+    }
   }
   void check_box(TableReader& in, GasConfig& gas) {
     for (std::size_t k = 0; k < dimensions() && case_.cell_size > 0.0; ++k) {
@@ -764,7 +794,7 @@ class CaseReader : public KeyReader<CaseReader> {
     if (gauge.kind != GaugeKind::point && gauge.kind != GaugeKind::line)
       in.problem("kind", "in gas a gauge is a point or a line");
     if (gauge.moves.value_or(false)) in.problem("moves", "in gas a gauge stands still");
-    if (!gauge.body.empty()) in.problem("body", "it would be ignored: there are no bodies");
+    if (!gauge.body.empty()) in.problem("body", "it would be ignored: in gas a gauge watches the gas alone");
     gauge.moves = false;
     check_gas_fields(in, gauge.fields);
     check_in_box(in, gauge.from, gauge.kind == GaugeKind::line ? gauge.to : gauge.from);
@@ -825,7 +855,7 @@ class CaseReader : public KeyReader<CaseReader> {
   void check(TableReader& in, FigureConfig& figure, const std::vector<FigureConfig>& others) {
     require_own_name(in, figure, others);
     require_file_name(in, figure.name);
-    if (!figure.body.empty() && case_.gas) in.problem("body", "it would be ignored: there are no bodies");
+    if (!figure.body.empty() && case_.gas) in.problem("body", "it would be ignored: it is a figure of the gas");
     if (!figure.body.empty() && !case_.gas) require_body(in, figure.body);
     const std::size_t before = in.problem_count();
     if (case_.gas) check_gas_fields(in, figure.fields), check_in_box(in, figure.from, figure.to);

@@ -16,6 +16,7 @@
 #include "simulator/output/fields.hpp"
 #include "simulator/output/run_directory.hpp"
 #include "simulator/run.hpp"
+#include "simulator/set_up_warnings.hpp"
 #include "simulator/setup.hpp"
 
 namespace brisance::simulator {
@@ -71,6 +72,7 @@ int run_case(const Options& o) {
   const Path directory = o.directory.empty() ? Path(o.file.stem().string() + "_run") : o.directory;
   Simulation s = set_up_or_refuse(c);
   prepare_directory(directory, c, o.overwrite);
+  for (const std::string& warning : set_up_warnings(c)) fmt::print(stderr, "warning: {}\n", warning);
   catch_interrupts();
   return tell(run(c, s, {directory, std::nullopt}), directory);
 }
@@ -160,7 +162,7 @@ int describe_keys(const std::string& key) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
-  CLI::App app{"Deformation, heating and failure of metal bodies under impact."};
+  CLI::App app{"Deformation, heating and failure of metal bodies under impact; gas dynamics, detonation."};
   app.name("brisance");
   app.require_subcommand(1);
   int code = done;

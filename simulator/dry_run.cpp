@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "simulator/gas/bodies_setup.hpp"
 #include "simulator/run.hpp"
 #include "simulator/set_up_warnings.hpp"
 #include "simulator/step_size.hpp"
@@ -59,7 +58,6 @@ DryRun dry_run(const Case& c, Simulation& s) {
   const StepSize first = next_step(s, c.numerics, c.end_time);
   result.first_step = first.dt, result.limit = first.limit;
   result.warnings = warnings_of(c, s, result.first_step);
-  for (const std::string& warning : gas::warnings_of_bodies(c)) result.warnings.push_back(warning);
   using Clock = std::chrono::steady_clock;
   constexpr double long_enough = 1.0;  // s
   constexpr int most_steps = 20;

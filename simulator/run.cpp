@@ -12,7 +12,6 @@
 
 #include "models/programs/files.hpp"
 #include "models/programs/progress.hpp"
-#include "simulator/gas/bodies_setup.hpp"
 #include "simulator/gates.hpp"
 #include "simulator/output/checkpoint.hpp"
 #include "simulator/output/figures.hpp"
@@ -54,6 +53,7 @@ std::string clock_text(double seconds) {
 
 /// Why a step was too large.
 std::string why_rejected(const Simulation& s, double dt) {
+  if (s.gas.implicit) return "the pressures were not found, or a cell of gas would be left without volume or energy";
   return s.bodies.empty() ? "a cell of gas would be left without volume or energy, or a thin wall would pass over its gas"
                           : worst_point(s, dt);
 }
@@ -77,7 +77,6 @@ class Run {
     if (s_.gas.implicit)
       log_.line(
           "gas.implicit: the pressures are those of an iteration; last digits depend on its tolerance and on the machine");
-    for (const std::string& warning : gas::warnings_of_bodies(case_)) log_.line("warning: " + warning);
     return guarded([&] {
       history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), 0);
       add_row();

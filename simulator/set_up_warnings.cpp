@@ -7,8 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "models/equation_of_state/thermodynamics.hpp"
 #include "models/update.hpp"
 #include "models/visit.hpp"
+#include "simulator/gas/bodies_setup.hpp"
 #include "simulator/solid/shapes.hpp"
 
 namespace brisance::simulator {
@@ -69,6 +71,44 @@ bool meets_nothing(const Case& c, const BodyConfig& body) {
          });
 }
 
+/// What has to happen before a reaction starts, if neither an ignition nor a state of the case does it.
+std::optional<std::string> what_does_not_start(const Case& c, const ReactionConfig& reaction) {
+  const auto lit = [&](const IgnitionConfig& i) { return i.time < c.end_time; };
+  if (std::any_of(reaction.ignitions.begin(), reaction.ignitions.end(), lit)) return {};
+  const FluidConfig* reactant = nullptr;
+  for (const FluidConfig& fluid : c.gas->fluids)
+    if (fluid.name == reaction.reactant) reactant = &fluid;
+  double hottest = 0.0, highest = 0.0;  // K of the reactant, Pa of all
+  const auto look = [&](const GasStateConfig& state) {
+    highest = std::max(highest, state.pressure.value_or(1e300));
+    if (state.fluid != reaction.reactant) return;
+    const EquationOfState& law = reactant->material.material.equation_of_state;
+    if (state.temperature)
+      hottest = std::max(hottest, *state.temperature);
+    else if (state.density && state.pressure)
+      hottest = std::max(
+          hottest, equation_of_state::temperature(law, *state.density,
+                                                  equation_of_state::energy_at_pressure(law, *state.density, *state.pressure)));
+    else
+      hottest = 1e300;  // a profile
+  };
+  for (const FillConfig& fill : c.gas->fills) look(fill);
+  for (const EdgeConfig& edge : c.gas->edges)
+    if (edge.kind == EdgeKind::inflow || edge.kind == EdgeKind::pressure) look(edge);
+  return std::visit(
+      [&]<class Law>(const Law& law) -> std::optional<std::string> {
+        if constexpr (requires { law.temperature_threshold; })
+          if (hottest < law.temperature_threshold)
+            return fmt::format("is at {:.4g} K at most and burns from {:.4g} K on", hottest, law.temperature_threshold);
+        if constexpr (std::is_same_v<Law, reaction::JwlPlusPlus>)
+          if (highest < law.pressure_threshold)
+            return fmt::format("burns from {:.4g} Pa on, and no state has more than {:.4g} Pa", law.pressure_threshold,
+                               highest);
+        return {};
+      },
+      *reactant->material.material.reaction);
+}
+
 }  // namespace
 
 std::vector<std::string> set_up_warnings(const Case& c) {
@@ -86,6 +126,12 @@ std::vector<std::string> set_up_warnings(const Case& c) {
                       "its direction and at end_time",
                       body.name, speed, c.end_time));
   }
+  if (!c.gas) return warnings;
+  for (const ReactionConfig& reaction : c.gas->reactions)
+    if (const auto reason = what_does_not_start(c, reaction))
+      warnings.push_back(
+          fmt::format("{}: {} {}; nothing lights it ([[gas.reaction.ignition]])", reaction.name, reaction.reactant, *reason));
+  for (std::string& warning : gas::warnings_of_bodies(c)) warnings.push_back(std::move(warning));
   return warnings;
 }
 

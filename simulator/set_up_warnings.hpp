@@ -1,5 +1,5 @@
 #pragma once
-// What looks wrong with the way the bodies of a case start.
+// What looks wrong with the way a case starts.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace brisance::simulator {
 
-/// One sentence each: bodies that start molten, and moving ones with nothing in their way.
+/// One sentence each: bodies that start molten, moving ones with nothing in their way, reactions that nothing starts, bodies in
+/// a gas that it leaks through or that it does not meet.
 std::vector<std::string> set_up_warnings(const Case& c);
 
 }  // namespace brisance::simulator

@@ -81,12 +81,28 @@ std::vector<std::string> warnings_of_bodies(const Case& c) {
     plane.position = (side % 2 == 0 ? c.gas->lower : c.gas->upper)[side / 2];
     mirrored.boundaries.push_back(plane);
   }
-  for (const GasBodyConfig& body : c.gas->bodies)
+  for (std::size_t n = 0; n < c.gas->bodies.size(); ++n) {
+    const GasBodyConfig& body = c.gas->bodies[n];
+    const Bounds extent = bounds(*body.shape);
+    const auto apart = [&](const Vector& lower, const Vector& upper) {
+      for (std::size_t a = 0; a < static_cast<std::size_t>(c.dimensions()); ++a)
+        if (extent.upper[a] <= lower[a] || extent.lower[a] >= upper[a]) return true;
+      return false;
+    };
+    if (apart(c.gas->lower, c.gas->upper))
+      warnings.push_back(fmt::format("{}: it starts outside the box of the gas", body.name));
+    for (std::size_t m = 0; m < n; ++m) {
+      const Bounds other = bounds(*c.gas->bodies[m].shape);
+      if (!apart(other.lower, other.upper))
+        warnings.push_back(fmt::format("{} and {}: their boxes overlap; bodies in the gas know nothing of each other",
+                                       body.name, c.gas->bodies[m].name));
+    }
     if (const auto thin = thinnest_part(mirrored, *body.shape, least_cells * c.cell_size))
       warnings.push_back(
           fmt::format("{}: near ({:.4g}, {:.4g}, {:.4g}) m it is {:.2g} cells thick, fewer than {:g}: gas may leak "
                       "through it; take smaller cells or make it thicker",
                       body.name, thin->place[0], thin->place[1], thin->place[2], thin->thickness / c.cell_size, least_cells));
+  }
   return warnings;
 }
 

@@ -351,8 +351,8 @@ bool all_cells_hold_heat(Gas& gas, const CellSet& content) {
       }
       for (int a = 0; a < D; ++a) square += at(Content::momentum + a) * at(Content::momentum + a);
       const LanesMask holds = (at(Content::energy) - 0.5 * square / mass > cold) | !lanes_of(cells_inside(gas.cells, block, k));
-      Lanes& plain = gas.half_step.at(block, HalfStep::plain(D))[k];
-      plain = select(holds, plain, Lanes(1.0));
+      Lanes& mark = gas.marks.at(block, 0)[k];
+      mark = select(holds, mark, Lanes(1.0));
       all_good &= holds;
     }
     good[i] = all(all_good);

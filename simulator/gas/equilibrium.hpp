@@ -32,7 +32,7 @@ Lanes coldest_energy(const Fluid& fluid, const Lanes& density);
 /// A state that the fluid can have, for lanes without it.
 void give_usual_state(Fluid& fluid);
 
-/// Whether the energy of each own cell exceeds its motion and what its fluids have at T = 0; cells that fail are marked plain.
+/// Whether the energy of each own cell exceeds its motion and what its fluids have at T = 0; cells that fail are marked.
 bool all_cells_hold_heat(Gas& gas, const CellSet& content);
 
 /// Primitives of all own blocks, with the largest rates of waves and motion.

@@ -40,7 +40,17 @@ void settle(Gas& gas) {
   std::swap(gas.content, gas.moved);
 }
 
-/// Takes the marks of this process's cells away; how many there were.
+/// Marked cells do without slopes in the next attempt. Neighbours read who does while cells are being marked, so the marks
+/// stand apart until the attempt is over.
+void make_marked_cells_plain(Gas& gas) {
+  for (const std::int32_t b : gas.cells.mine)
+    for (int k = 0; k < gas.cells.packs(); ++k) {
+      Lanes& mark = gas.marks.at(static_cast<std::size_t>(b), 0)[k];
+      Lanes& plain = gas.half_step.at(static_cast<std::size_t>(b), HalfStep::plain(gas.dimensions()))[k];
+      plain = max(plain, mark), mark = Lanes(0.0);
+    }
+}
+/// No cell is plain any more; how many of this process were.
 std::int64_t forget_plain_cells(Gas& gas) {
   std::int64_t count = 0;
   for (const std::int32_t b : gas.cells.mine)
@@ -97,7 +107,8 @@ void fill_in_portions(Gas& gas, const PortionsFunction& portions, Domain& domain
   }
   gas.primitive = CellSet(Primitive::count(D) + (gas.fluids.size() > 1 ? static_cast<int>(gas.fluids.size()) : 0), packs);
   gas.half_step = CellSet(HalfStep::count(D), packs);
-  gas.primitive.resize(blocks), gas.half_step.resize(blocks);
+  gas.marks = CellSet(1, packs);
+  gas.primitive.resize(blocks), gas.half_step.resize(blocks), gas.marks.resize(blocks);
   gas.swept.assign(blocks * static_cast<std::size_t>(D * (D == 3 ? 8 : 1) * line_faces), Lanes(0.0));
   open_passages(gas);
   prepare_burns(gas);
@@ -154,10 +165,11 @@ Outcome advance(Gas& gas, double dt, Domain& domain) {
   }
   const std::int64_t flattened = gas.flattened, capped = gas.capped;
   gas.careful = false;
-  constexpr int most_attempts = 3;
+  const int most_attempts = gas.implicit ? 1 : 3;  // the faces of the solve know no slopes to do without
   for (int attempt = 1; !try_step(gas, dt, domain); ++attempt) {
     gas.flattened = flattened, gas.capped = capped;
     clear_step(gas.passages);
+    make_marked_cells_plain(gas);
     if (attempt == most_attempts) {
       forget_plain_cells(gas);
       return Outcome::rejected;
@@ -257,8 +269,8 @@ std::vector<Totals> burned(const Gas& gas, Domain& domain) {
 
 std::size_t Gas::bytes() const {
   std::size_t sum = swept.capacity() * sizeof(Lanes) + face_laws.capacity() * sizeof(FaceLaw);
-  for (const CellSet* set :
-       {&content, &moved, &next, &primitive, &half_step, &transport, &unknown, &burning_area, &filtered, &filtering, &released})
+  for (const CellSet* set : {&content, &moved, &next, &marks, &primitive, &half_step, &transport, &unknown, &burning_area,
+                             &filtered, &filtering, &released})
     sum += set->bytes();
   return sum;
 }

@@ -159,6 +159,7 @@ struct Gas {
 
   CellSet content;                                      // at the start of the step
   CellSet moved, next;                                  // after the Lagrangian phase and each sweep of the remap
+  CellSet marks;                                        // cells that have not borne an attempt at the step: 1, others 0
   CellSet primitive, half_step;                         // scratch
   CellSet transport;                                    // with viscosity or conduction: see Transport
   CellSet unknown;                                      // implicit: number of each cell among the unknowns; -1: none

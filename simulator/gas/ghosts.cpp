@@ -112,9 +112,11 @@ void share_scalars(const Gas& gas, CellSet& set, Beyond beyond, Domain& domain) 
   constexpr int no_component = -10;
   share(gas.cells, set, domain);
   if (beyond == Beyond::nothing) {
-    for (const GhostSide& side : gas.cells.sides)
-      for (const Ghost& g : side.nearest)
+    for (std::size_t s = 0; s < gas.cells.sides.size(); ++s)
+      for (const Ghost& g : gas.cells.sides[s].nearest)
         for (int q = 0; q < set.quantities(); ++q) set.cell(index(g.block), q, g.cell) = 0.0;
+    for (std::size_t s = 0; s < gas.cells.sides.size(); ++s)
+      if (gas.edges[s].kind == EdgeKind::periodic) copy(set, gas.cells.sides[s].wrapped, -1);
     return;
   }
   fill_ghosts(gas, set, no_component, [&](const Edge&, const GhostSide& side) { copy(set, side.nearest, -1); });

@@ -196,7 +196,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
     }
     constexpr double least_room = 0.2;
     const LanesMask bears = ((moved > least_room * room) & (thermal > 0.0)) | !active;
-    at(gas.half_step, HalfStep::plain(D)) = select(bears, at(gas.half_step, HalfStep::plain(D)), Lanes(1.0));
+    at(gas.marks, 0) = select(bears, at(gas.marks, 0), Lanes(1.0));
     good &= bears;
   }
   return all(good);

@@ -12,12 +12,6 @@ inline Lanes monotonised_central(const Lanes& below, const Lanes& at, const Lane
   const Lanes size = min(abs(centre), 2.0 * min(abs(a), abs(b)));
   return select(a * b > 0.0, select(centre < 0.0, -size, size), Lanes(0.0));
 }
-/// The smaller of the two one-sided slopes.
-inline Lanes minmod(const Lanes& below, const Lanes& at, const Lanes& above) {
-  const Lanes a = at - below, b = above - at;
-  const Lanes size = min(abs(a), abs(b));
-  return select(a * b > 0.0, select(a < 0.0, -size, size), Lanes(0.0));
-}
 inline Lanes slope(const Pencil& q, std::size_t cell) {
   return monotonised_central(q[cell - 1], q[cell], q[cell + 1]);
 }

@@ -52,11 +52,11 @@ Giving giving_at(const Lanes& swept, const Pencil& room, const Pencil* plain, st
 
 /// Marks the cells number m of a pencil's lines.
 template <int D>
-void mark_plain(Gas& gas, std::size_t block, int axis, int n, std::size_t m, const LanesMask& cells) {
-  Pencil plain;
-  load_own<D>(gas.half_step, block, HalfStep::plain(D), axis, n, plain);
-  plain[ring + m] = select(cells, Lanes(1.0), plain[ring + m]);
-  store<D>(gas.half_step, block, HalfStep::plain(D), axis, n, plain);
+void mark(Gas& gas, std::size_t block, int axis, int n, std::size_t m, const LanesMask& cells) {
+  Pencil marks;
+  load_own<D>(gas.marks, block, 0, axis, n, marks);
+  marks[ring + m] = select(cells, Lanes(1.0), marks[ring + m]);
+  store<D>(gas.marks, block, 0, axis, n, marks);
 }
 
 struct Carried {
@@ -243,7 +243,7 @@ SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
         const LanesMask overdrawn = ((at.mass[c] < 0.0) | (at.volume[c] < -1e-14 * room[c])) &
                                     lanes_inside<D>(gas.cells, block, axis, n, static_cast<int>(f));
         if (none(overdrawn)) continue;
-        mark_plain<D>(gas, block, axis, n, f, overdrawn);
+        mark<D>(gas, block, axis, n, f, overdrawn);
         result.good = false;
       }
     }

@@ -47,6 +47,7 @@ GasBooks gas_books_of(const Simulation& s) {
   GasBooks books;
   for (const gas::Fluid& fluid : s.gas.fluids) books.fluids.push_back(fluid.name);
   books.state = scaled(gas::totals(s.gas, *s.domain)), books.initial = scaled(s.gas.initial);
+  books.gravity = s.gas.gravity != Vector{};
   books.plain = s.gas.plain, books.flattened = s.gas.flattened;
   const std::vector<gas::Totals> passed = gas::passed(s.gas, *s.domain);
   const std::size_t edges = s.gas.edges.size();
@@ -66,7 +67,10 @@ GasBooks gas_books_of(const Simulation& s) {
   }
   for (const gas::MovingBody& body : bodies) {
     const Vector impulse = {body.impulse[0].value(), body.impulse[1].value(), body.impulse[2].value()};
-    books.bodies.push_back({body.name, body.state.displacement, body.state.velocity, whole * body.force, whole * impulse,
+    const Vector velocity = body.mass > 0.0        ? body.state.velocity
+                            : body.motion.velocity ? body.motion.velocity(s.gas.time)
+                                                   : Vector{};
+    books.bodies.push_back({body.name, body.state.displacement, velocity, whole * body.force, whole * impulse,
                             whole * body.work.value(), whole * body.kinetic_energy()});
   }
   return books;
@@ -90,7 +94,7 @@ std::vector<BookEntry> entries_of(const GasBooks& books, Geometry geometry) {
   const std::size_t beyond = books.entries.size() - (books.bodies.empty() ? 0 : books.bodies.size() + 1);
   for (std::size_t e = 0; e < beyond; ++e) {
     const auto& [name, through] = books.entries[e];
-    if (name != "gravity" || through.energy != 0.0 || through.momentum != Vector{}) add(name, through, "impulse");
+    if (name != "gravity" || books.gravity) add(name, through, "impulse");
   }
   for (const ReactionBook& reaction : books.reactions) {
     entries.push_back({reaction.name + "_burned_mass", mass, reaction.burned});

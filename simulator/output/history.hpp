@@ -38,6 +38,7 @@ struct GasBooks {
   std::vector<std::string> fluids;
   gas::Totals state, initial;
   std::vector<std::pair<std::string, gas::Totals>> entries;
+  bool gravity = false;                   // acts
   std::int64_t plain = 0, flattened = 0;  // as in Gas, of this process
   std::vector<ReactionBook> reactions;
   std::int64_t capped = 0;  // times that a cell wanted to burn more in a step than it may

@@ -29,7 +29,8 @@ std::string gas_in_words(const Books& all) {
   for (const auto& [name, through] : books.entries)
     if (through.energy != 0.0) row("by " + name, through);
   for (const ReactionBook& reaction : books.reactions)
-    text += fmt::format("  {:24} {:14.6g} {:14.6g}\n", "burned by " + reaction.name, reaction.burned, reaction.made.energy);
+    text += fmt::format("  {:24} {:14.6g} {:14.6g}\n", "burned by " + reaction.name, reaction.burned + 0.0,
+                        reaction.made.energy);  // no -0
   if (books.capped > 0)
     text += fmt::format("  {} times a cell wanted to burn more than a fifth of itself in a step\n", books.capped);
   row("in no book", books.residual());

@@ -367,6 +367,10 @@ TEST(CaseReader, RefusesMotionsThatABodyInTheGasCannotMake) {
   expect(changed("radial_velocity = \"10 m/s\"", ""), "gas.body.0.radius: it would be ignored");
   expect(changed("name = \"shot\"", "name = \"ring\""), "is given twice");
   expect(changed("axis = \"y\"", "axis = \"z\""), "gas.body.1.axis");
+  expect(changed("mass = \"0.2 kg\"", ""), "gas.body.1.axis: it would be ignored");
+  expect(changed("mass = \"0.2 kg\"\naxis = \"y\"", "centre = [1, 1]"), "gas.body.1.centre: it would be ignored");
+  expect(changed("mass = \"0.2 kg\"\naxis = \"y\"", "amplitude = { time = [0, 1], value = [0, 1] }"),
+         "gas.body.1.amplitude: it would be ignored");
   std::string round = bodies_in_gas;
   for (const auto& [from, to] : {std::pair<std::string, std::string>{"\"plane\"", "\"axisymmetric\""},
                                  {"[\"5 mm\", \"5 mm\"]", "[0, \"5 mm\"]"},
@@ -441,6 +445,9 @@ INSTANTIATE_TEST_SUITE_P(
         HostileGas{"from = [\"20 mm\"", "from = [\"25 mm\"", "along x it leaves the box of the gas"},
         HostileGas{"[gas]\n", "[[boundary]]\nkind = \"symmetry\"\naxis = \"x\"\nposition = 0\nside = \"above\"\n[gas]\n",
                    "boundary: it would be ignored: there are no solids"},
+        HostileGas{"kind = \"non_reflecting\"\nfluid = \"air\"\ntemperature = \"300 K\"\npressure = \"1 atm\"",
+                   "kind = \"non_reflecting\"\nfluid = \"air\"\ndensity = \"1.2 kg/m^3\"\npressure = \"-1 atm\"",
+                   "\"air\" has no state with -101325 Pa"},
         HostileGas{"courant = 0.4\n", "acoustic_courant = 5\n", "it is the Courant number of implicit = true"},
         HostileGas{"courant = 0.4\n", "courant = 0.4\nimplicit = true\n", "the steps of implicit = true are those of acoustic"},
         HostileGas{"courant = 0.4\n", "momentum_exchange = 5\n", "have one velocity but with scheme = \"ice_classic\""},

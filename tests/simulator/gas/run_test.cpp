@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "simulator/case_reader.hpp"
 #include "simulator/commands.hpp"
 #include "simulator/output/run_directory.hpp"
@@ -63,6 +66,32 @@ TEST(GasRun, WithABodyGoesOnFromACheckpointWithTheSameBits) {
   EXPECT_EQ(text_of(parts / "history.csv"), text_of(directory / "whole" / "history.csv"));
   EXPECT_TRUE(contains(text_of(parts / "history.csv"), "projectile_force_x [N/m]"));
   EXPECT_GT(second.gas.bodies.all.at(0).state.velocity[0], 30.0);
+}
+
+/// What gravity brings has its columns from the first row on, and a body whose motion is given its velocity.
+TEST(GasRun, HistoryHasTheSameColumnsFromTheFirstRowOn) {
+  const fs::path directory = scratch();
+  const Case c = read_case(shipped("hydrostatic_column"), {"output.figures=false"});
+  prepare_directory(directory / "column", c, false);
+  Simulation first = set_up(c), second = set_up(c);
+  EXPECT_EQ(run(c, first, {directory / "column", {}, 5}).ending, Ending::interrupted);
+  const RunResult resumed = resume(c, second, {directory / "column", {}, 5});
+  EXPECT_EQ(resumed.ending, Ending::interrupted) << resumed.message;
+  const std::string history = text_of(directory / "column" / "history.csv");
+  std::istringstream rows(history);
+  std::string header, row;
+  std::getline(rows, header);
+  EXPECT_TRUE(contains(header, "gravity_energy"));
+  while (std::getline(rows, row))
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ','));
+}
+
+TEST(GasRun, TellsTheVelocityOfABodyWhoseMotionIsGiven) {
+  Case c = read_case(shipped("gas_driven_projectile"), {"cell_size=20 mm", "output.figures=false"});
+  c.gas->bodies.at(0).mass.reset();
+  c.gas->bodies.at(0).velocity = {7.0, 0.0, 0.0};
+  const Simulation s = set_up(c);
+  EXPECT_EQ(books_of(s).gas->bodies.at(0).velocity, (Vector{7.0, 0.0, 0.0}));
 }
 
 TEST(GasRun, IsCheckedBeforeAndDrawnAfter) {
