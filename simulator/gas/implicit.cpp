@@ -41,6 +41,20 @@ void load_states(const Gas& gas, std::size_t block, int axis, int n, FaceStates&
   s.still.fill(Lanes(0.0));
 }
 
+/// The two sides of a face and the waves between them, with a change of the pressures.
+struct Face {
+  FaceSide L, R;
+  FaceWaves waves;
+};
+Face face_at(const Gas& gas, const FaceStates& s, const Pencil& change, std::size_t f, double half_head) {
+  const std::size_t l = ring + f - 1, r = ring + f;
+  const FaceSide L = face_side(s.density, s.pressure, s.velocity, change, s.still, l, 0.5, half_head);
+  const FaceSide R = face_side(s.density, s.pressure, s.velocity, change, s.still, r, -0.5, half_head);
+  return {L, R,
+          face_waves(L, R, s.sound[l], s.sound[r], 1.0 + 0.5 * max(s.gruneisen[l], s.gruneisen[r]),
+                     sqrt(max(s.speed[l], s.speed[r])), gas.least_mach)};
+}
+
 /// The jumps that the slopes leave at a face damp it. That part is explicit, and is cut down to what a long step can bear.
 template <int D>
 Lanes bearable(const Gas& gas, const Lanes& sound, double dt) {
@@ -58,10 +72,7 @@ void find_laws(Gas& gas, std::size_t block, double dt) {
       FaceLaw* laws = gas.face_laws.data() + gas.first_face(block, axis, n);
       for (std::size_t f = 0; f < line_faces; ++f) {
         const std::size_t l = ring + f - 1, r = ring + f;
-        const FaceSide L = face_side(s.density, s.pressure, s.velocity, s.still, s.still, l, 0.5, half_head);
-        const FaceSide R = face_side(s.density, s.pressure, s.velocity, s.still, s.still, r, -0.5, half_head);
-        const FaceWaves waves = face_waves(L, R, s.sound[l], s.sound[r], 1.0 + 0.5 * max(s.gruneisen[l], s.gruneisen[r]),
-                                           sqrt(max(s.speed[l], s.speed[r])), gas.least_mach);
+        const auto [L, R, waves] = face_at(gas, s, s.still, f, half_head);
         const Lanes both = s.density[l] + s.density[r];
         const Lanes part = bearable<D>(gas, max(s.sound[l], s.sound[r]), dt);
         laws[f].free = (s.density[l] * L.velocity + s.density[r] * R.velocity) / both +
@@ -207,10 +218,7 @@ void solved_faces(Gas& gas, std::size_t block, int axis, int n, double dt, FaceP
   const FaceLaw* laws = gas.face_laws.data() + gas.first_face(block, axis, n);
   for (std::size_t f = 0; f < line_faces; ++f) {
     const std::size_t l = ring + f - 1, r = ring + f;
-    const FaceSide L = face_side(s.density, s.pressure, s.velocity, s.change, s.still, l, 0.5, half_head);
-    const FaceSide R = face_side(s.density, s.pressure, s.velocity, s.change, s.still, r, -0.5, half_head);
-    const FaceWaves waves = face_waves(L, R, s.sound[l], s.sound[r], 1.0 + 0.5 * max(s.gruneisen[l], s.gruneisen[r]),
-                                       sqrt(max(s.speed[l], s.speed[r])), gas.least_mach);
+    const auto [L, R, waves] = face_at(gas, s, s.change, f, half_head);
     const Lanes part = bearable<D>(gas, max(s.sound[l], s.sound[r]), dt) * waves.damping;
     velocity[f] = laws[f].free - laws[f].yield * ((s.pressure[r] + s.change[r]) - (s.pressure[l] + s.change[l]));
     // Without the slopes: with those of the velocity the cells would feel a steeper wave than the matrix lets their faces feel,

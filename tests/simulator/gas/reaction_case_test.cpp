@@ -9,6 +9,7 @@
 #include "simulator/run.hpp"
 #include "simulator/setup.hpp"
 #include "tests/command_line.hpp"
+#include "tests/simulator/gas/interrupted_run.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -29,26 +30,13 @@ std::string problems_of(const std::vector<std::string>& changes) {
 }
 
 TEST(ReactionCase, RunsStopsAndGoesOnWithTheSameBits) {
-  const fs::path directory = scratch();
   const Case c = read_case(shipped("detonation_pbx_9501"), {"cell_size=0.5 mm", "gas.fill.1.shape.box.upper=[\"4 mm\"]",
                                                             "end_time=3 us", "output.figures=false"});
-  const auto fresh = [&](const std::string& name) {
-    prepare_directory(directory / name, c, false);
-    return directory / name;
-  };
-  Simulation whole = set_up(c);
-  const RunResult uninterrupted = run(c, whole, {fresh("whole"), {}});
-  ASSERT_EQ(uninterrupted.ending, Ending::done) << uninterrupted.message;
-  const fs::path parts = fresh("parts");
-  Simulation first = set_up(c), second = set_up(c);
-  EXPECT_EQ(run(c, first, {parts, {}, 31}).ending, Ending::interrupted);
-  EXPECT_EQ(resume(c, second, {parts, {}}).ending, Ending::done);
-  EXPECT_TRUE(gas::numbers_of(second.gas) == gas::numbers_of(whole.gas));
-  EXPECT_EQ(text_of(parts / "history.csv"), text_of(directory / "whole" / "history.csv"));
-  const std::string history = text_of(parts / "history.csv");
+  const InterruptedRun r = run_whole_and_in_parts(c, {31});
+  const std::string history = text_of(r.parts_directory / "history.csv");
   for (const char* column : {"detonation_burned_mass [kg/m^2]", "detonation_heat [J/m^2]"})
     EXPECT_TRUE(contains(history, column)) << column;
-  EXPECT_TRUE(contains(in_words(uninterrupted.summary), "burned by detonation"));
+  EXPECT_TRUE(contains(in_words(r.uninterrupted.summary), "burned by detonation"));
 }
 
 TEST(ReactionCase, WritesWhatItReads) {

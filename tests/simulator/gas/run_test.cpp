@@ -11,6 +11,7 @@
 #include "simulator/run.hpp"
 #include "simulator/setup.hpp"
 #include "tests/command_line.hpp"
+#include "tests/simulator/gas/interrupted_run.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -21,51 +22,20 @@ fs::path shipped(const std::string& name) {
 
 /// Two fluids, so that the volumes and energies that the equilibrium has shared out have to be kept as well.
 TEST(GasRun, GoesOnFromACheckpointWithTheSameBits) {
-  const fs::path directory = scratch();
   const Case c =
       read_case(shipped("water_air_shock_tube"), {"cell_size=10 mm", "output.figures=false", "output.snapshot_interval=50 us"});
-  const auto fresh = [&](const std::string& name) {
-    prepare_directory(directory / name, c, false);
-    return directory / name;
-  };
-  Simulation whole = set_up(c);
-  const RunResult uninterrupted = run(c, whole, {fresh("whole"), {}});
-  ASSERT_EQ(uninterrupted.ending, Ending::done) << uninterrupted.message;
-  ASSERT_GT(whole.step, 60);
-  const fs::path parts = fresh("parts");
-  Simulation first = set_up(c), second = set_up(c), third = set_up(c);
-  EXPECT_EQ(run(c, first, {parts, {}, 17}).ending, Ending::interrupted);
-  EXPECT_EQ(resume(c, second, {parts, {}, 23}).ending, Ending::interrupted);
-  const RunResult resumed = resume(c, third, {parts, {}});
-  ASSERT_EQ(resumed.ending, Ending::done) << resumed.message;
-
-  EXPECT_EQ(third.step, whole.step);
-  EXPECT_TRUE(gas::numbers_of(third.gas) == gas::numbers_of(whole.gas));
-  EXPECT_EQ(text_of(parts / "history.csv"), text_of(directory / "whole" / "history.csv"));
+  const InterruptedRun r = run_whole_and_in_parts(c, {17, 23});
+  ASSERT_GT(r.whole.step, 60);
   for (const char* name : {"gas_000000.vti", "gas_000003.vti"})
-    EXPECT_TRUE(text_of(parts / name) == text_of(directory / "whole" / name)) << name;
+    EXPECT_TRUE(text_of(r.parts_directory / name) == text_of(r.whole_directory / name)) << name;
 }
 
 /// With a body that the gas drives.
 TEST(GasRun, WithABodyGoesOnFromACheckpointWithTheSameBits) {
-  const fs::path directory = scratch();
   const Case c = read_case(shipped("gas_driven_projectile"), {"cell_size=20 mm", "output.figures=false", "end_time=0.2 ms"});
-  const auto fresh = [&](const std::string& name) {
-    prepare_directory(directory / name, c, false);
-    return directory / name;
-  };
-  Simulation whole = set_up(c);
-  const RunResult uninterrupted = run(c, whole, {fresh("whole"), {}});
-  ASSERT_EQ(uninterrupted.ending, Ending::done) << uninterrupted.message;
-  const fs::path parts = fresh("parts");
-  Simulation first = set_up(c), second = set_up(c);
-  EXPECT_EQ(run(c, first, {parts, {}, 17}).ending, Ending::interrupted);
-  const RunResult resumed = resume(c, second, {parts, {}});
-  ASSERT_EQ(resumed.ending, Ending::done) << resumed.message;
-  EXPECT_TRUE(gas::numbers_of(second.gas) == gas::numbers_of(whole.gas));
-  EXPECT_EQ(text_of(parts / "history.csv"), text_of(directory / "whole" / "history.csv"));
-  EXPECT_TRUE(contains(text_of(parts / "history.csv"), "projectile_force_x [N/m]"));
-  EXPECT_GT(second.gas.bodies.all.at(0).state.velocity[0], 30.0);
+  const InterruptedRun r = run_whole_and_in_parts(c, {17});
+  EXPECT_TRUE(contains(text_of(r.parts_directory / "history.csv"), "projectile_force_x [N/m]"));
+  EXPECT_GT(r.parts.gas.bodies.all.at(0).state.velocity[0], 30.0);
 }
 
 /// What gravity brings has its columns from the first row on, and a body whose motion is given its velocity.
