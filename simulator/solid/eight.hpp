@@ -11,10 +11,13 @@ namespace brisance::simulator {
 struct Eight {
   std::array<std::uint32_t, 8> particle;
   int used;
+  bool neighbours = false;  // their numbers follow each other
 
   explicit Eight(std::uint32_t one) : used(1) { particle.fill(one); }
   Eight(const Bins& bins, std::uint32_t first, std::uint32_t end) : used(static_cast<int>(std::min(end - first, 8u))) {
     for (std::uint32_t i = 0; i < 8; ++i) particle[i] = bins.order[std::min(first + i, end - 1)];
+    neighbours = true;
+    for (std::uint32_t i = 1; i < 8; ++i) neighbours &= particle[i] == particle[0] + i;
   }
   /// The value in the lanes in use, zero beyond.
   Lanes only_used(const Lanes& value) const {
@@ -28,6 +31,11 @@ class Columns {
   Columns(const ColumnSet& set, const Eight& eight) : Columns(const_cast<ColumnSet&>(set), eight) {}
   Columns(ColumnSet& set, const Eight& eight) : data_(set.chunk(0)) {
     for (std::size_t i = 0; i < 8; ++i) places_.at[i] = set.offset(eight.particle[i]);
+    if (const auto beyond = eight.particle[0] % chunk_size; eight.neighbours) {
+      places_.neighbours = true;
+      places_.in_first = static_cast<std::uint8_t>(0xff >> beyond);
+      places_.second = beyond == 0 ? places_.at[0] : places_.at[7] - 7;
+    }
   }
   Lanes operator[](int column) const { return gather(data_ + column * chunk_size, places_); }
   void write(int column, const Lanes& values) { scatter(values, data_ + column * chunk_size, places_); }

@@ -38,14 +38,24 @@ struct alignas(64) StoredPack {
 /// Eight particles by eight channels, or the other way round.
 using Square = std::array<StoredPack, 8>;
 
-/// Where eight numbers stand, counted from some address.
+/// Where eight numbers stand, counted from some address. Those of neighbours in memory are the end of one pack and the start of
+/// the next: two loads take them, of which each leaves out what is not its own.
 struct alignas(64) Places {
   std::array<std::int64_t, 8> at;
+  bool neighbours = false;
+  std::uint8_t in_first = 0xff;  // bit i: number i stands in the first pack
+  std::int64_t second = 0;       // where number 0 would stand if the second pack reached back to it
 };
 inline Lanes gather(const double* from, const Places& places) {
 #if defined(__AVX512F__)
   Lanes r;
-  r.part[0] = _mm512_mask_i64gather_pd(simd::Register{}, 0xff, _mm512_load_si512(places.at.data()), from, 8);
+  if (places.neighbours) {
+    const auto second = static_cast<std::uint8_t>(~places.in_first);
+    r.part[0] = _mm512_maskz_loadu_pd(places.in_first, from + places.at[0]);
+    r.part[0] = _mm512_mask_loadu_pd(r.part[0], second, from + places.second);
+  } else {
+    r.part[0] = _mm512_mask_i64gather_pd(simd::Register{}, 0xff, _mm512_load_si512(places.at.data()), from, 8);
+  }
   return r;
 #else
   const auto& at = places.at;
@@ -55,7 +65,12 @@ inline Lanes gather(const double* from, const Places& places) {
 /// Where places coincide, the last of the numbers stays.
 inline void scatter(const Lanes& values, double* to, const Places& places) {
 #if defined(__AVX512F__)
-  _mm512_i64scatter_pd(to, _mm512_load_si512(places.at.data()), values.part[0], 8);
+  if (places.neighbours) {
+    _mm512_mask_storeu_pd(to + places.at[0], places.in_first, values.part[0]);
+    _mm512_mask_storeu_pd(to + places.second, static_cast<std::uint8_t>(~places.in_first), values.part[0]);
+  } else {
+    _mm512_i64scatter_pd(to, _mm512_load_si512(places.at.data()), values.part[0], 8);
+  }
 #else
   for (int i = 0; i < 8; ++i) to[places.at[static_cast<std::size_t>(i)]] = values[i];
 #endif

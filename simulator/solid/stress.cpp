@@ -13,6 +13,7 @@
 #include "models/visit.hpp"
 #include "simulator/domain/message.hpp"
 #include "simulator/parallel.hpp"
+#include "simulator/solid/packs.hpp"
 #include "simulator/solid/worst_particle.hpp"
 #include "simulator/table.hpp"
 
@@ -111,24 +112,40 @@ void write_point(Particles& ps, int chunk, const Pack& p) {
   write(rest, L::Rest::plastic_work, read(rest, L::Rest::plastic_work) + p.plastic_work / p.state.density);
 }
 
-/// Largest element of the lanes in use.
-double largest(const Lanes& a, int lanes) {
-  double m = a[0];
-  for (int i = 1; i < lanes; ++i) m = std::max(m, a[i]);
-  return m;
-}
-
 /// How near densities (kg/m^3, of the metal itself) are to the ends of what an equation of state holds for: 1 is an end.
 Lanes filling(const equation_of_state::DensityRange& range, const Lanes& density) {
   return max(density * (1.0 / range.highest), range.lowest / density);
 }
 
+double largest(const Lanes& a) {
+  double m = a[0];
+  for (int i = 1; i < chunk_size; ++i) m = std::max(m, a[i]);
+  return m;
+}
+
+/// Lanes that hold particles; those beyond the last one of a body hold nothing that counts.
+LanesMask in_use(const Particles& ps, int chunk) {
+  return pack(0, 1, 2, 3, 4, 5, 6, 7) < static_cast<double>(ps.size - chunk * chunk_size);
+}
+/// A number that is not negative joins the largest ones of its lanes.
+void raise(Lanes& most, const LanesMask& counts, const Lanes& value) {
+  most = max(most, select(counts, value, Lanes(0.0)));
+}
+
+/// Extremes of eight particles side by side.
+struct LaneExtremes {
+  Lanes wave_speed{0.0}, wave_and_motion{0.0}, speed{0.0}, volume_rate{0.0}, filling{0.0};
+
+  Extremes over_lanes() const {
+    return {largest(wave_speed), largest(wave_and_motion), largest(speed), largest(volume_rate), largest(filling)};
+  }
+};
+
 /// Speeds that limit the step, from sound speed, artificial viscosity and velocity.
 template <int D>
 void look(const Simulation& s, const Body& body, int chunk, const Lanes& density, const Lanes& bulk_modulus,
-          const Lanes& shear_modulus, const ColumnSet& motion, Extremes& e) {
+          const Lanes& shear_modulus, const ColumnSet& motion, LaneExtremes& e) {
   using L = Layout<D>;
-  const int used = std::min(chunk_size, body.particles.size - chunk * chunk_size);
   const Lanes c = sqrt((bulk_modulus + (4.0 / 3.0) * shear_modulus) / density);
   Lanes trace(0.0);
   const double* l = body.particles.gradient.chunk(chunk);
@@ -139,10 +156,15 @@ void look(const Simulation& s, const Body& body, int chunk, const Lanes& density
   const Lanes wave = Q + sqrt(Q * Q + c * c);
   Lanes speed(0.0);
   for (int a = 0; a < D; ++a) speed = max(speed, abs(read(motion.chunk(chunk), L::Motion::velocity + a)));
-  e.wave_speed = std::max(e.wave_speed, largest(wave, used));
-  e.wave_and_motion = std::max(e.wave_and_motion, largest(wave + speed, used));
-  e.speed = std::max(e.speed, largest(speed, used));
-  e.volume_rate = std::max(e.volume_rate, largest(abs(trace), used));
+  const LanesMask counts = in_use(body.particles, chunk);
+  raise(e.wave_speed, counts, wave), raise(e.wave_and_motion, counts, wave + speed);
+  raise(e.speed, counts, speed), raise(e.volume_rate, counts, abs(trace));
+}
+
+/// The same of densities that an equation of state has to hold for.
+void look_at_filling(const Body& body, int chunk, const Lanes& metal_density, LaneExtremes& e) {
+  const equation_of_state::DensityRange range = equation_of_state::range(body.material.equation_of_state);
+  raise(e.filling, in_use(body.particles, chunk), filling(range, metal_density));
 }
 
 Extremes& operator|=(Extremes& a, const Extremes& b) {
@@ -224,35 +246,36 @@ void advance_in_parts(const Simulation& s, Body& body, int chunk, double dt, Pac
 /// The material's own update of the particles of one batch.
 template <int D>
 void advance_batch(const Simulation& s, Body& body, int first_chunk, int chunks, double dt, const ColumnSet& velocities,
-                   Batch<Lanes>& batch, Extremes& extremes, Failing& failing) {
+                   Batch<Lanes>& batch, LaneExtremes& extremes, Failing& failing) {
   Particles& ps = body.particles;
   batch.size = chunks, batch.time = s.time + dt;
   for (int c = 0; c < chunks; ++c)
     read_point<D>(ps, first_chunk + c, s.grid.cell_size, batch.points[static_cast<std::size_t>(c)]);
   update(body.material, batch, dt);
-  const equation_of_state::DensityRange range = equation_of_state::range(body.material.equation_of_state);
   for (int c = 0; c < chunks; ++c) {
     Pack& p = batch.points[static_cast<std::size_t>(c)];
-    const int used = std::min(chunk_size, ps.size - (first_chunk + c) * chunk_size);
-    for (int i = used; i < chunk_size; ++i) p.trouble.set(i, 0.0);
+    const int chunk = first_chunk + c;
+    p.trouble = select(in_use(ps, chunk), p.trouble, Lanes(0.0));
     if (none(p.trouble != 0.0))
-      write_point<D>(ps, first_chunk + c, p);
+      write_point<D>(ps, chunk, p);
     else
-      advance_in_parts<D>(s, body, first_chunk + c, dt, p);
-    for (int i = 0; i < used; ++i) {
-      const auto trouble = static_cast<Trouble>(static_cast<int>(p.trouble[i]));
-      const int particle = (first_chunk + c) * chunk_size + i;
-      const std::uint64_t id = ps.id[static_cast<std::size_t>(particle)];
-      if (trouble != Trouble::none && id < failing.id) failing = {trouble, &body, particle, id};
-    }
-    look<D>(s, body, first_chunk + c, p.state.density, p.bulk_modulus, p.state.shear_modulus, velocities, extremes);
-    extremes.filling = std::max(extremes.filling, largest(filling(range, p.metal_density), used));
+      advance_in_parts<D>(s, body, chunk, dt, p);
+    if (any(p.trouble != 0.0))
+      for (int i = 0; i < chunk_size; ++i) {
+        const auto trouble = static_cast<Trouble>(static_cast<int>(p.trouble[i]));
+        const int particle = chunk * chunk_size + i;
+        if (trouble == Trouble::none) continue;
+        const std::uint64_t id = ps.id[static_cast<std::size_t>(particle)];
+        if (id < failing.id) failing = {trouble, &body, particle, id};
+      }
+    look<D>(s, body, chunk, p.state.density, p.bulk_modulus, p.state.shear_modulus, velocities, extremes);
+    look_at_filling(body, chunk, p.metal_density, extremes);
   }
 }
 
 /// Deformation gradient and density of a body whose stress is a given function, then that function.
 template <int D>
-void advance_prescribed(const Simulation& s, Body& body, double dt, const ColumnSet& velocities, Extremes& extremes) {
+void advance_prescribed(const Simulation& s, Body& body, double dt, const ColumnSet& velocities, LaneExtremes& extremes) {
   using L = Layout<D>;
   Particles& ps = body.particles;
   for (int c = 0; c < ps.chunks(); ++c) {
@@ -284,7 +307,9 @@ void advance_all(Simulation& s, double dt, ColumnSet Particles::*velocities) {
   Failing first;
   for (Body& body : s.bodies) {
     if (body.stress) {
-      advance_prescribed<D>(s, body, dt, body.particles.*velocities, all);
+      LaneExtremes extremes;
+      advance_prescribed<D>(s, body, dt, body.particles.*velocities, extremes);
+      all |= extremes.over_lanes();
       continue;
     }
     constexpr int batch_chunks = Batch<Lanes>::capacity / 2;  // what fits into the first-level cache
@@ -292,7 +317,7 @@ void advance_all(Simulation& s, double dt, ColumnSet Particles::*velocities) {
     // A few batches per piece of work, so that the scratch batch is made once for them.
     constexpr int per_piece = 16;
     const int pieces = (batches + per_piece - 1) / per_piece;
-    std::vector<Extremes> extremes(static_cast<std::size_t>(pieces));
+    std::vector<LaneExtremes> extremes(static_cast<std::size_t>(pieces));
     std::vector<Failing> failing(static_cast<std::size_t>(pieces));
     parallel_for_blocks(static_cast<std::size_t>(pieces), [&](std::size_t piece) {
       const auto batch = std::make_unique<Batch<Lanes>>();
@@ -301,7 +326,7 @@ void advance_all(Simulation& s, double dt, ColumnSet Particles::*velocities) {
         advance_batch<D>(s, body, b * batch_chunks, std::min(batch_chunks, chunks - b * batch_chunks), dt,
                          body.particles.*velocities, *batch, extremes[piece], failing[piece]);
     });
-    for (const Extremes& e : extremes) all |= e;
+    for (const LaneExtremes& e : extremes) all |= e.over_lanes();
     for (const Failing& f : failing) first = std::min(first, f);
   }
   if (s.domain->maximum(first.body ? 1.0 : 0.0) > 0.0) fail_together(s, first, dt);
@@ -311,7 +336,7 @@ void advance_all(Simulation& s, double dt, ColumnSet Particles::*velocities) {
 /// A batch that does not move tells its moduli; what the update makes of it is thrown away.
 template <int D>
 Extremes look_at_all(const Simulation& s) {
-  Extremes all;
+  LaneExtremes all;
   const auto batch = std::make_unique<Batch<Lanes>>();
   for (const Body& body : s.bodies)
     for (int c = 0; c < body.particles.chunks(); ++c) {
@@ -328,11 +353,9 @@ Extremes look_at_all(const Simulation& s) {
       constexpr double any_time = 1e-9;
       update(body.material, *batch, any_time);
       look<D>(s, body, c, p.state.density, p.bulk_modulus, p.state.shear_modulus, body.particles.motion, all);
-      const int used = std::min(chunk_size, body.particles.size - c * chunk_size);
-      const auto range = equation_of_state::range(body.material.equation_of_state);
-      all.filling = std::max(all.filling, largest(filling(range, p.metal_density), used));
+      look_at_filling(body, c, p.metal_density, all);
     }
-  return all;
+  return all.over_lanes();
 }
 
 /// Calls f(body, chunk, filling at the end of a step of dt seconds) for all particles that have an equation of state.
@@ -431,12 +454,12 @@ Extremes extremes_of(const Simulation& s) {
 bool densities_stay_in_range(const Simulation& s, double largest_gradient, double dt) {
   // No volume changes faster than sqrt(3) |L|: mostly that is all that has to be known.
   if (s.extremes.filling * std::exp(std::sqrt(3.0) * largest_gradient * dt) <= 1.0) return true;
-  double fullest = 0.0;
+  Lanes fullest(0.0);
   const auto look = [&](const Body& body, int chunk, const Lanes& filling_of) {
-    fullest = std::max(fullest, largest(filling_of, std::min(chunk_size, body.particles.size - chunk * chunk_size)));
+    raise(fullest, in_use(body.particles, chunk), filling_of);
   };
   s.dimensions() == 3 ? for_each_filling<3>(s, dt, look) : for_each_filling<2>(s, dt, look);
-  return s.domain->maximum(fullest) <= 1.0;
+  return s.domain->maximum(largest(fullest)) <= 1.0;
 }
 
 std::string worst_point(const Simulation& s, double dt) {
