@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "models/input/csv.hpp"
@@ -34,7 +35,7 @@ Scale scale_for(std::string_view unit, double largest) {
   Scale scale{1.0, std::string(unit)};
   if (std::find(prefixed.begin(), prefixed.end(), unit) == prefixed.end() || !(largest > 0.0)) return scale;
   constexpr std::array prefixes = {"n", "µ", "m", "", "k", "M", "G"};
-  const int thousands = std::clamp(static_cast<int>(std::floor(std::log10(largest) / 3.0)), -3, 3);
+  const int thousands = std::clamp(static_cast<int>(std::floor(std::log10(largest) / 3.0)), -3, unit == "s" ? 0 : 3);
   return {std::pow(1e-3, thousands), prefixes[static_cast<std::size_t>(thousands + 3)] + scale.unit};
 }
 double largest(const std::vector<double>& values) {
@@ -61,6 +62,15 @@ std::string in_words(std::string_view field) {
   return name;
 }
 
+/// From the smallest to the largest value, so that a panel has no empty part; none without one.
+std::optional<std::array<double, 2>> extent(const std::vector<const std::vector<double>*>& all, const Scale& scale) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const std::vector<double>* values : all)
+    for (const double v : *values) low = std::min(low, v), high = std::max(high, v);
+  if (!(low < high)) return std::nullopt;
+  return {{scale.per_si * low, scale.per_si * high}};
+}
+
 void legend_beside(Panel& panel) {
   panel.legend = "at graph 1.02, graph 1 left top vertical Left reverse";
   panel.legend_width = 27;
@@ -85,7 +95,7 @@ Panel against_time(const std::string& title, std::string_view quantity, const st
   for (Curve& curve : curves) {
     const double peak = largest(curve.y);
     if (peak < visible * most || peak <= noise) {
-      if (peak > 0.0) small.push_back(fmt::format("{} {}", curve.title, in_words(peak, unit.text, 2)));
+      if (peak > 0.0) small.push_back(fmt::format("{} {}", curve.title, in_words(peak, unit.text, 3)));
       continue;
     }
     curve.x = scaled(time, times.per_si), curve.y = scaled(std::move(curve.y), scale.per_si);
@@ -96,9 +106,12 @@ Panel against_time(const std::string& title, std::string_view quantity, const st
   constexpr std::size_t most_told = 3;
   const std::size_t told = std::min(small.size(), most_told);
   panel.title = title;
-  if (told > 0) panel.title += fmt::format("; not drawn: {}", fmt::join(small.begin(), small.begin() + told, ", "));
+  if (told > 0)
+    panel.title +=
+        fmt::format("{}not drawn: {}", title.empty() ? "" : "; ", fmt::join(small.begin(), small.begin() + told, ", "));
   if (small.size() > told) panel.title += fmt::format(" and {} smaller", small.size() - told);
   panel.x_label = label("time", times), panel.y_label = label(quantity, scale);
+  if (largest(time) > 0.0) panel.x_range = {{0.0, times.per_si * largest(time)}};
   legend_beside(panel);
   return panel;
 }
@@ -235,6 +248,7 @@ void draw_gauges(const Case& c, const Path& directory) {
     const Scale scale = scale_for(shown.front()->unit, most);
     Panel panel;
     panel.x_label = label("time", times), panel.y_label = label(in_words(field), scale);
+    if (end > 0.0) panel.x_range = {{0.0, times.per_si * end}};
     if (const std::size_t count = shown.size(); count > palette_size) {
       panel.title = fmt::format("{} of {}", palette_size, count);
       std::vector<const GaugeSeries*> evenly;
@@ -387,10 +401,11 @@ void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, c
     panel.x_label = label(computed.coordinate, lengths);
     panel.y_label = label(in_words(field) + (field == "velocity" ? " along " + computed.coordinate : ""), scale);
     legend_beside(panel);
-    panel.curves.push_back(curve("computed", computed, Mark::dots, 0));
-    panel.curves.back().size = 0.3;
+    panel.x_range = extent({&computed.place, &reference.place}, lengths);
     if (f < reference.values.size() && !reference.values[f].empty())
       panel.curves.push_back(curve("reference", reference, Mark::dashed, 1));
+    panel.curves.push_back(curve("computed", computed, Mark::dots, 0));
+    panel.curves.back().size = 0.3;
     figure.panels.push_back(std::move(panel));
   }
   draw(figure, directory / fmt::format("line_{}.png", config.name));
