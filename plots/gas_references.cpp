@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -18,6 +19,7 @@
 
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "simulator/gas/muscl_hllc.hpp"
+#include "tests/simulator/gas/chapman_jouguet.hpp"
 #include "tests/simulator/gas/exact_riemann.hpp"
 #include "tests/simulator/gas/exact_solutions.hpp"
 
@@ -82,6 +84,10 @@ void add_riemann_problems(Tables& all) {
       riemann(fmt::format(fmt::runtime(toro), 3), {{1.0, 0.0, 1000.0}, {1.0, 0.0, 0.01}}, 0.5, 0.012, 1.0));
   add("dense_driver_tube",
       riemann("of a pressure ratio of 1e5 and a density ratio of 10", {{10.0, 0.0, 1e5}, {1.0, 0.0, 1.0}}, 0.3, 0.0024, 1.0));
+  Table at_rest{"A contact between gases at rest", along_x};
+  for (const auto& [x, density] : {std::pair{0.0, 1.0}, {0.5, 1.0}, {0.5, 10.0}, {1.0, 10.0}})
+    at_rest.rows.push_back({x, density, 1.0, 0.0});
+  add("contact_at_rest", at_rest);
   add("moving_contact", riemann("of a contact that moves", {{1.0, 1.0, 1.0}, {10.0, 1.0, 1.0}}, 0.2, 0.5, 1.0));
   const StiffenedGas air{1.4}, water{4.4, 6e8};
   add("water_air_shock_tube", riemann("of water at 1 GPa and air at 0.1 MPa, two stiffened gases,",
@@ -183,6 +189,44 @@ void add_woodward_colella(Tables& all) {
   add_fine_grid(all, "woodward_colella", "Two blast waves of Woodward & Colella, J. Comput. Phys. 54 (1984) 115,", gas, 0.038);
 }
 
+// Detonations ---------------------------------------------------------------------------------------------------------
+
+/// Lit by products in the state of Chapman and Jouguet at a wall, which then stay behind the front; or of products that come in
+/// at that state, behind which nothing else is.
+void add_detonation(Tables& all, const std::string& name, const std::string& explosive, const eos::JonesWilkinsLee& products,
+                    double time, bool supported) {
+  constexpr double lit = 2e-3, upper = 90e-3, atmosphere = 101325.0;
+  const ChapmanJouguet cj = tangent(products);
+  Table table{
+      fmt::format("Detonation of {} in the state of Chapman and Jouguet of its products (D = {:.1f} m/s, {:.3f} GPa) at "
+                  "t = {:g} s, {}; no reaction zone",
+                  explosive, cj.velocity, 1e-9 * cj.pressure, time,
+                  supported ? "products come in at that state"
+                            : "lit by 2 mm of that state at a wall: they are behind the front, then comes the wave of "
+                              "Taylor"),
+      along_x};
+  const GasState behind{cj.density, cj.particle_velocity, cj.pressure};
+  if (supported) {
+    table.rows.push_back(row(0.0, behind));
+  } else {
+    const std::vector<WaveState> wave = taylor_wave(products);
+    table.rows.push_back(row(0.0, wave.front().state));
+    for (const WaveState& at : wave) table.rows.push_back(row(at.speed * time, at.state));
+  }
+  const double front = cj.velocity * time + lit;
+  table.rows.push_back(row(front, behind));
+  for (const double x : {front, upper}) table.rows.push_back({x, products.reference_density, atmosphere, 0.0});
+  all[name] = table;
+}
+
+void add_detonations(Tables& all) {
+  const auto add = [&](const std::string& name, const std::string& explosive, const eos::JonesWilkinsLee& products, double time,
+                       bool supported) { add_detonation(all, "detonation_" + name, explosive, products, time, supported); };
+  add("pbx_9501", "PBX 9501", {1838.0, 1668.9e9, 59.69e9, 5.9, 2.1, 0.45, 594.96, 9.499985e9}, 9e-6, false);
+  add("composition_b", "Composition B", {1717.0, 524.2e9, 7.678e9, 4.2, 1.1, 0.34, 1000.0, 8.5e9}, 10e-6, true);
+  add("tnt", "TNT", {1630.0, 371.2e9, 3.231e9, 4.15, 0.95, 0.30, 1000.0, 7.0e9}, 11.5e-6, true);
+}
+
 // Smooth flows --------------------------------------------------------------------------------------------------------
 
 void add_entropy_wave(Tables& all) {
@@ -251,13 +295,19 @@ void add_hydrostatic_column(Tables& all) {
 
 // Fluids --------------------------------------------------------------------------------------------------------------
 
-void add_water_slab(Tables& all) {
-  Table table{"A slab of water, 0.3 m to 0.6 m, after 3 ms at 100 m/s in air of the same velocity and pressure",
-              "x [m],density [kg/m^3],pressure [Pa],velocity [m/s],fraction_water"};
-  for (const auto& [x, density, fraction] :
-       {std::tuple{0.0, 1.2, 0.0}, {0.6, 1.2, 0.0}, {0.6, 1000.0, 1.0}, {0.9, 1000.0, 1.0}, {0.9, 1.2, 0.0}, {1.0, 1.2, 0.0}})
+void add_slab(Tables& all, const std::string& fluid, double density_of_it) {
+  Table table{
+      fmt::format("A slab of {}, 0.3 m to 0.6 m, after 3 ms at 100 m/s in air of the same velocity and pressure", fluid),
+      "x [m],density [kg/m^3],pressure [Pa],velocity [m/s],fraction_" + fluid};
+  const double air = 1.2;
+  for (const auto& [x, density, fraction] : {std::tuple{0.0, air, 0.0},
+                                             {0.6, air, 0.0},
+                                             {0.6, density_of_it, 1.0},
+                                             {0.9, density_of_it, 1.0},
+                                             {0.9, air, 0.0},
+                                             {1.0, air, 0.0}})
     table.rows.push_back({x, density, 1e5, 100.0, fraction});
-  all["water_slab"] = table;
+  all[fluid + "_slab"] = table;
 }
 
 /// Material that runs against a wall comes to rest behind a shock; the jumps of mass, momentum and energy give its state.
@@ -290,6 +340,74 @@ void add_impacts(Tables& all) {
   add_impact(all, "tillotson_impact", aluminium, 2700.0, 0.0, 2000.0, 1e-4);
 }
 
+// Bodies --------------------------------------------------------------------------------------------------------------
+
+constexpr double gamma = 1.4;
+
+/// Gas of density and pressure 1 within a ring that widens or shrinks slowly: uniform.
+void add_ring(Tables& all, const std::string& name, double from, double to) {
+  Table table{
+      fmt::format("Gas of density and pressure 1 in a ring whose radius has slowly come from {:g} m to {:g} m: p V^{:g} "
+                  "is what it was",
+                  from, to, gamma),
+      "x [m],density [kg/m^3],pressure [Pa]"};
+  const double density = from * from / (to * to);
+  for (const double x : {0.0, to}) table.rows.push_back({x, density, std::pow(density, gamma)});
+  all[name] = table;
+}
+
+void add_piston(Tables& all) {
+  constexpr double speed = 0.05, start = 1.0075, way = 0.5, thickness = 0.125, upper = 1.25;
+  Table table{fmt::format("Gas of density and pressure 1 in front of a piston that has come from {:g} m to {:g} m at {:g} m/s: "
+                          "p V^{:g} is what it was; behind it the simple wave that follows it",
+                          start, start - way, speed, gamma),
+              along_x};
+  const double front = start - way, density = start / front;
+  for (const double part : {0.0, 1.0}) table.rows.push_back({part * front, density, std::pow(density, gamma), -part * speed});
+  const double sound = 1.0 - 0.5 * (gamma - 1.0) * speed / std::sqrt(gamma);  // over that of the gas at rest
+  const double behind = std::pow(sound, 2.0 / (gamma - 1.0));
+  for (const double x : {front + thickness, upper}) table.rows.push_back({x, behind, std::pow(behind, gamma), -speed});
+  all["piston_in_gas"] = table;
+}
+
+/// A chamber of one state, whose entropy stays, loses rho c A (2/(gamma + 1))^((gamma + 1)/(2 (gamma - 1))) to its slot.
+void add_vented_chamber(Tables& all) {
+  constexpr double density = 12.0, pressure = 1e6, slot = 4e-3, time = 200e-6;
+  constexpr double length = 28e-3, height = 36e-3, round = 8e-3;  // up to the plates; of their ends
+  const double volume = length * height + slot * round + 2.0 * round * round * (1.0 - 0.25 * std::numbers::pi);
+  const double sound = std::sqrt(gamma * pressure / density);
+  const double choked = std::pow(2.0 / (gamma + 1.0), 0.5 * (gamma + 1.0) / (gamma - 1.0));
+  const double left = std::pow(1.0 + 0.5 * (gamma - 1.0) * choked * sound * slot / volume * time, -2.0 / (gamma - 1.0));
+  Table table{
+      fmt::format("A chamber of one state (1 MPa, 12 kg/m^3, {:.5g} m^3/m) that loses the choked flow of a slot of 4 mm, "
+                  "t = {:g} s",
+                  volume, time),
+      along_x};
+  for (const double x : {0.0, length}) table.rows.push_back({x, density * left, pressure * std::pow(left, gamma), 0.0});
+  all["vented_chamber"] = table;
+}
+
+void add_bodies(Tables& all) {
+  add_ring(all, "widening_ring", 0.25, 0.351), add_ring(all, "shrinking_ring", 0.35, 0.25);
+  add_piston(all);
+  const double speed = 0.1 * std::sqrt(gamma);
+  for (const auto& [name, axis] : {std::pair{"disk_with_the_gas", "x"}, {"sphere_with_the_gas", "y"}}) {
+    Table table{"Gas that a body moves with, undisturbed", fmt::format("{} [m],pressure [Pa],velocity [m/s]", axis)};
+    for (const double x : {0.0, 1.0}) table.rows.push_back({x, 1.0, speed});
+    all[name] = table;
+  }
+  add_vented_chamber(all);
+  Table closed{"Hot gas in a closed ring, 12 m to 13.5 m", "x [m],density [kg/m^3],pressure [Pa]"};
+  for (const auto& [x, density, pressure] : {std::tuple{-24.0, 1.0, 1.0},
+                                             {-13.5, 1.0, 1.0},
+                                             {-12.0, 5.0, 10.0},
+                                             {12.0, 5.0, 10.0},
+                                             {13.5, 1.0, 1.0},
+                                             {24.0, 1.0, 1.0}})
+    closed.rows.push_back({x, density, pressure});
+  all["closed_ring"] = closed;
+}
+
 }  // namespace
 }  // namespace brisance::simulator::gas
 
@@ -303,8 +421,10 @@ int main(int argc, char** argv) {
   add_riemann_problems(all);
   add_noh(all, "noh_cylindrical", 2), add_noh(all, "noh_spherical", 3);
   add_sedov(all);
+  add_detonations(all);
   add_shu_osher(all), add_woodward_colella(all), add_cylindrical_explosion(all);
   add_entropy_wave(all), add_vortices(all), add_hydrostatic_column(all);
-  add_water_slab(all), add_impacts(all);
+  add_slab(all, "water", 1000.0), add_slab(all, "products", 2.0), add_impacts(all);
+  add_bodies(all);
   for (const auto& [name, table] : all) write(directory / (name + ".csv"), table);
 }

@@ -11,12 +11,28 @@
 namespace brisance::simulator {
 
 Ran run_case(const std::string& file, const std::vector<std::string>& changes, const std::filesystem::path& directory) {
+  return run_case(file, changes, directory, 1, [](const Simulation&) {});
+}
+
+Ran run_case(const std::string& file, const std::vector<std::string>& changes, const std::filesystem::path& directory,
+             int parts, const std::function<void(const Simulation&)>& look) {
   Ran ran{read_case(std::filesystem::path(BRISANCE_DATA) / "cases" / (file + ".toml"), changes), {}, {}};
   ran.simulation = set_up(ran.config);
   prepare_directory(directory, ran.config, true);
+  look(ran.simulation);
   RunOptions options;
   options.directory = directory;
-  ran.result = run(ran.config, ran.simulation, options);
+  Case quiet = ran.config;  // figures at the end alone
+  quiet.output.figures = false;
+  for (int part = 1; part <= parts; ++part) {
+    const bool last = part == parts;
+    const Case& c = last ? ran.config : quiet;
+    options.until = last ? c.end_time : c.end_time * part / parts;
+    if (part > 1) ran.simulation = set_up(c);
+    ran.result = part > 1 ? resume(c, ran.simulation, options) : run(c, ran.simulation, options);
+    if (ran.result.ending != Ending::done) break;
+    look(ran.simulation);
+  }
   return ran;
 }
 

@@ -2,6 +2,7 @@
 // What the validations share: running a case, statements that must hold, and the version they hold for.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct Ran {
 };
 /// Runs data/cases/<file>.toml with changes ("cell_size=1 mm") into a directory, over what is there.
 Ran run_case(const std::string& file, const std::vector<std::string>& changes, const std::filesystem::path& directory);
+/// The same in so many parts of equal time; `look` sees the simulation at the start and after each of them.
+Ran run_case(const std::string& file, const std::vector<std::string>& changes, const std::filesystem::path& directory,
+             int parts, const std::function<void(const Simulation&)>& look);
 
 /// A statement that must hold, with the number it rests on.
 struct Check {

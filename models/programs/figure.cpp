@@ -58,13 +58,27 @@ std::string style_of(const Curve& curve) {
   return {};
 }
 
-/// The range of the colours: gnuplot complains about one without extent, and chooses it around zero.
-std::string value_range(const Panel& panel) {
-  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+/// A range for values that are the same but for rounding: they are drawn as level, not as noise, and gnuplot complains about a
+/// range without extent. None for others.
+std::optional<std::array<double, 2>> level_range(double low, double high) {
+  constexpr double rounding = 1e-6, margin = 0.1;
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (!std::isfinite(size) || high - low > rounding * size) return std::nullopt;
+  const double extent = size > 0.0 ? margin * size : 1.0;
+  return {{low - extent, high + extent}};
+}
+
+template <class ValuesOf>
+std::optional<std::array<double, 2>> level_range(const Panel& panel, ValuesOf&& values_of) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Curve& curve : panel.curves)
-    for (const double value : curve.values) lower = std::min(lower, value), upper = std::max(upper, value);
-  if (lower != upper) return "*:*";
-  return lower == 0.0 ? "0:1" : fmt::format("{}:{}", lower - 0.1 * std::abs(lower), lower + 0.1 * std::abs(lower));
+    for (const double value : values_of(curve)) low = std::min(low, value), high = std::max(high, value);
+  return level_range(low, high);
+}
+
+/// As gnuplot understands it; its own choice if there is none.
+std::string range(const std::optional<std::array<double, 2>>& chosen) {
+  return chosen ? fmt::format("[{}:{}]", (*chosen)[0], (*chosen)[1]) : "[*:*]";
 }
 
 /// The distance of tics along x, 1, 2 or 5 times a power of ten, that leaves room for their numbers; gnuplot's choice where
@@ -85,19 +99,19 @@ std::string tic_step(const Panel& panel) {
 void draw_panel(Gnuplot& plot, const Panel& panel) {
   plot << "set title " << plain(panel.title) << " font ',12'\n";
   plot << "set xlabel " << quoted_text(panel.x_label) << "\nset ylabel " << quoted_text(panel.y_label) << "\n";
-  plot << "set xrange [*:*]\nset yrange [*:*]\n";
-  if (panel.x_range) plot << fmt::format("set xrange [{}:{}]\n", (*panel.x_range)[0], (*panel.x_range)[1]);
-  if (panel.y_range) plot << fmt::format("set yrange [{}:{}]\n", (*panel.y_range)[0], (*panel.y_range)[1]);
+  const auto height =
+      panel.logarithmic_y || panel.y_range ? panel.y_range : level_range(panel, [](const Curve& c) { return c.y; });
+  plot << "set xrange " << range(panel.x_range) << "\nset yrange " << range(height) << "\n";
   plot << (panel.logarithmic_x ? "set logscale x\nset format x '10^{%L}'\n" : "unset logscale x\nset format x '%g'\n");
   plot << (panel.logarithmic_y ? "set logscale y\n" : "unset logscale y\n");
   plot << fmt::format("set xtics {} font ',10'\n", tic_step(panel));
   plot << (panel.equal_axes ? "set size ratio -1\n" : "set size noratio\n");
-  plot << "set cbrange [" << value_range(panel) << "]\n";
+  plot << "set cbrange " << range(level_range(panel, [](const Curve& c) { return c.values; })) << "\n";
   if (!panel.scale_label.empty())
     plot << "set cblabel " << plain(panel.scale_label)
          << "\nset palette defined (0 '#440154', 1 '#414487', 2 '#2a788e', 3 '#22a884', 4 '#7ad151', 5 '#fde725')\n";
   const bool legend = std::any_of(panel.curves.begin(), panel.curves.end(), [](const Curve& c) { return !c.title.empty(); });
-  plot << (panel.legend_width > 0 ? fmt::format("set lmargin 10\nset rmargin {}\n", panel.legend_width)
+  plot << (panel.legend_width > 0 ? fmt::format("set lmargin 14\nset rmargin {}\n", panel.legend_width)
                                   : "set lmargin\nset rmargin\n");
   // Below the panel an empty title keeps the legend off the label of the axis.
   const std::string apart = panel.legend.starts_with("below") ? " title ' '" : "";

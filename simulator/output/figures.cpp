@@ -1,11 +1,14 @@
 #include "simulator/output/figures.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <tuple>
 
 #include "models/input/csv.hpp"
 #include "models/programs/figure.hpp"
@@ -27,12 +30,12 @@ struct Scale {
   std::string unit;  // "" of a number without one
 };
 Scale scale_for(std::string_view unit, double largest) {
-  constexpr std::array prefixed = {"s", "m", "J", "J/m", "J/m^2", "Pa"};
+  constexpr std::array prefixed = {"s", "m", "J", "J/m", "J/m^2", "Pa", "N", "N/m"};
   if (unit == "1") return {};
   Scale scale{1.0, std::string(unit)};
   if (std::find(prefixed.begin(), prefixed.end(), unit) == prefixed.end() || !(largest > 0.0)) return scale;
   constexpr std::array prefixes = {"n", "µ", "m", "", "k", "M", "G"};
-  const int thousands = std::clamp(static_cast<int>(std::floor(std::log10(largest) / 3.0)), -3, 3);
+  const int thousands = std::clamp(static_cast<int>(std::floor(std::log10(largest) / 3.0)), -3, unit == "s" ? 0 : 3);
   return {std::pow(1e-3, thousands), prefixes[static_cast<std::size_t>(thousands + 3)] + scale.unit};
 }
 double largest(const std::vector<double>& values) {
@@ -59,20 +62,18 @@ std::string in_words(std::string_view field) {
   return name;
 }
 
-void legend_beside(Panel& panel) {
-  panel.legend = "outside right top vertical Left reverse";
-  panel.legend_width = 27;
+/// From the smallest to the largest value, so that a panel has no empty part; none without one.
+std::optional<std::array<double, 2>> extent(const std::vector<const std::vector<double>*>& all, const Scale& scale) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const std::vector<double>* values : all)
+    for (const double v : *values) low = std::min(low, v), high = std::max(high, v);
+  if (!(low < high)) return std::nullopt;
+  return {{scale.per_si * low, scale.per_si * high}};
 }
 
-/// What is the same everywhere but for rounding is drawn as level, not as noise.
-void level(Panel& panel) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Curve& curve : panel.curves)
-    for (const double y : curve.y) low = std::min(low, y), high = std::max(high, y);
-  constexpr double rounding = 1e-6, margin = 0.1;
-  const double size = std::max(std::abs(low), std::abs(high));
-  if (high - low <= rounding * size && std::isfinite(size))
-    panel.y_range = {{low - margin * (size > 0.0 ? size : 1.0), high + margin * (size > 0.0 ? size : 1.0)}};
+void legend_beside(Panel& panel) {
+  panel.legend = "at graph 1.02, graph 1 left top vertical Left reverse";
+  panel.legend_width = 27;
 }
 
 bool is_mirrored(const Simulation& s, int axis) {
@@ -80,30 +81,47 @@ bool is_mirrored(const Simulation& s, int axis) {
                      [&](const Boundary& b) { return b.kind == BoundaryKind::symmetry && b.axis == axis && b.node == 0; });
 }
 
-/// Curves against time. Those that would lie on the axis are not drawn; the title tells their largest values, unless they are
-/// zero all the time.
-Panel against_time(const std::string& title, const std::vector<double>& time, std::vector<Curve> curves, Unit unit) {
+/// Curves of a quantity against time. Those that would lie on the axis, and what is below `noise`, are not drawn; the title
+/// tells the largest values of the first of them, unless they are zero all the time.
+Panel against_time(const std::string& title, std::string_view quantity, const std::vector<double>& time,
+                   std::vector<Curve> curves, Unit unit, double noise = 0.0) {
   const Scale times = scale_for("s", largest(time));
   double most = 0.0;
   for (const Curve& curve : curves) most = std::max(most, largest(curve.y));
-  const Scale energies = scale_for(unit.text, most);
+  const Scale scale = scale_for(unit.text, most);
   Panel panel;
-  std::string small;
+  std::vector<std::string> small;
   constexpr double visible = 0.005;  // a pixel or two
   for (Curve& curve : curves) {
     const double peak = largest(curve.y);
-    if (peak < visible * most || peak == 0.0) {
-      if (peak > 0.0)
-        small += fmt::format("{}{} {}", small.empty() ? "; not drawn: " : ", ", curve.title, in_words(peak, unit.text, 2));
+    if (peak < visible * most || peak <= noise) {
+      if (peak > 0.0) small.push_back(fmt::format("{} {}", curve.title, in_words(peak, unit.text, 3)));
       continue;
     }
-    curve.x = scaled(time, times.per_si), curve.y = scaled(std::move(curve.y), energies.per_si);
+    curve.x = scaled(time, times.per_si), curve.y = scaled(std::move(curve.y), scale.per_si);
     panel.curves.push_back(std::move(curve));
   }
-  panel.title = title + small;
-  panel.x_label = label("time", times), panel.y_label = label("energy", energies);
+  if (panel.curves.empty() && !curves.empty())  // nothing happens
+    panel.curves.push_back({curves.back().title, scaled(time, times.per_si), std::vector<double>(time.size(), 0.0)});
+  constexpr std::size_t most_told = 3;
+  const std::size_t told = std::min(small.size(), most_told);
+  panel.title = title;
+  if (told > 0)
+    panel.title +=
+        fmt::format("{}not drawn: {}", title.empty() ? "" : "; ", fmt::join(small.begin(), small.begin() + told, ", "));
+  if (small.size() > told) panel.title += fmt::format(" and {} smaller", small.size() - told);
+  panel.x_label = label("time", times), panel.y_label = label(quantity, scale);
+  if (largest(time) > 0.0) panel.x_range = {{0.0, times.per_si * largest(time)}};
   legend_beside(panel);
   return panel;
+}
+
+/// Colours in the order of the curves; where there are more, the others are dashed.
+void colour_in_order(Panel& panel) {
+  for (std::size_t k = 0; k < panel.curves.size(); ++k) {
+    panel.curves[k].colour = static_cast<int>(k % palette_size);
+    if (k >= palette_size) panel.curves[k].mark = Mark::dashed;
+  }
 }
 
 void draw_energy(const Case& c, const Path& directory) {
@@ -115,31 +133,100 @@ void draw_energy(const Case& c, const Path& directory) {
   const std::vector<double> time = history.numbers("time", Unit::s);
   // The internal energy often equals what it is made of: it is dashed, so that both are seen.
   Panel physical = against_time(
-      "Energy", time,
+      "Energy", "energy", time,
       {curve("kinetic_energy", "kinetic", 0), curve("plastic_work", "plastic work", 2),
        curve("external_work", "work of loads", 3), curve("boundary_work", "work of boundaries", 4),
        curve("friction_work", "friction", 6), curve("viscous_work", "artificial viscosity", 5),
        curve("outflow_energy", "outflow", 7), curve("internal_energy_change", "internal, change", 1, Mark::dashed)},
       unit);
-  Panel numerical = against_time("Numerical books", time,
+  Panel numerical = against_time("Numerical books", "energy", time,
                                  {curve("transfer_energy", "transfer", 0), curve("filter_energy", "filter", 1),
                                   curve("stress_timing_energy", "stress timing", 2), curve("energy_residual", "in no book", 6)},
                                  unit);
   draw({c.title, {std::move(physical), std::move(numerical)}, 1, 900, 380}, directory / "energy.png");
 }
 
+/// What has changed the energy of the gas since the start.
 void draw_gas_energy(const Case& c, const Simulation& s, const Path& directory) {
   const CsvFile history = CsvFile::load(directory / "history.csv");
   const std::vector<double> time = history.numbers("time", Unit::s);
   const Unit unit = unit_of(Extensive::energy, c.geometry);
-  const auto curve = [&](const std::string& column, const std::string& title, int colour) {
-    return Curve{title, {}, history.numbers(column, unit), Mark::line, colour};
+  std::vector<double> change = history.numbers("gas_energy", unit);
+  constexpr double rounding = 1e-12;
+  const double start = change.front(), noise = rounding * std::abs(start);
+  for (double& energy : change) energy -= start;
+  std::vector<Curve> curves;
+  const auto add = [&](const std::string& title, const std::string& column, double factor = 1.0) {
+    curves.push_back({title, {}, scaled(history.numbers(column, unit), factor)});
   };
-  std::vector<Curve> curves = {curve("gas_energy", "total", 0), curve("gas_kinetic_energy", "kinetic", 1)};
-  int colour = 2;
-  for (const gas::Edge& edge : s.gas.edges) curves.push_back(curve(edge.name + "_energy", "through " + edge.name, colour++));
-  curves.push_back(curve("gas_residual_energy", "in no book", 7));
-  draw({c.title, {against_time("Energy of the gas", time, std::move(curves), unit)}, 1, 900, 380}, directory / "energy.png");
+  add("kinetic", "gas_kinetic_energy");
+  for (const gas::Edge& edge : s.gas.edges)  // what leaves at a periodic side comes in at the other
+    if (edge.kind != EdgeKind::periodic) add("through " + edge.name, edge.name + "_energy");
+  for (const gas::Burn& burn : s.gas.burns) add("heat of " + burn.name, burn.name + "_heat");
+  for (const gas::MovingBody& body : s.gas.bodies.all) add("work of " + body.name, body.name + "_work", -1.0);
+  add("in no book", "gas_residual_energy");
+  // It often equals one of what it is made of: it is dashed, so that both are seen.
+  curves.push_back({"total, change", {}, std::move(change), Mark::dashed});
+  Panel panel = against_time("Energy of the gas", "energy", time, std::move(curves), unit, noise);
+  colour_in_order(panel);
+  draw({c.title, {std::move(panel)}, 1, 900, 380}, directory / "energy.png");
+}
+
+/// How bodies in the gas move, and what drives them.
+void draw_gas_bodies(const Case& c, const Simulation& s, const Path& directory) {
+  const CsvFile history = CsvFile::load(directory / "history.csv");
+  const std::vector<double> time = history.numbers("time", Unit::s);
+  Figure figure{c.title + ": bodies", {}, 1, 900, 280};
+  const gas::Cells& cells = s.gas.cells;
+  int longest = 0;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(s.dimensions()); ++a)
+    longest = std::max(longest, cells.upper[a] - cells.lower[a]);
+  // Forces that balance each other on a closed body leave rounding.
+  constexpr double rounding = 1e-9;
+  const double energy = largest(history.numbers("gas_energy", unit_of(Extensive::energy, c.geometry)));
+  const double noise_of_force = rounding * energy / (longest * cells.cell_size);
+  struct Quantity {
+    std::string_view name;
+    Unit unit;
+    double noise;
+    std::ptrdiff_t first_row;
+  };
+  const Unit force = unit_of(Extensive::force, c.geometry);
+  const Quantity quantities[] = {{"displacement", Unit::m, 0.0, 0},
+                                 {"velocity", Unit::m_per_s, 0.0, 0},
+                                 {"force", force, noise_of_force, 1}};  // of the last step: at the start there is none
+  for (const auto& [quantity, unit, noise, first] : quantities) {
+    const auto known = [from = first](const std::vector<double>& values) {
+      return std::vector<double>(values.begin() + from, values.end());
+    };
+    std::vector<Curve> curves;
+    for (const gas::MovingBody& body : s.gas.bodies.all)
+      for (const char axis : std::string_view("xyz"))
+        if (const std::string column = fmt::format("{}_{}_{}", body.name, quantity, axis); history.has(column))
+          curves.push_back({fmt::format("{}, {}", body.name, axis), {}, known(history.numbers(column, unit))});
+    const bool rests = std::all_of(curves.begin(), curves.end(), [](const Curve& curve) { return largest(curve.y) == 0.0; });
+    if (rests && quantity != "force") continue;
+    figure.panels.push_back(against_time("", quantity, known(time), std::move(curves), unit, noise));
+    colour_in_order(figure.panels.back());
+  }
+  draw(figure, directory / "bodies.png");
+}
+
+/// What has burned, and its heat.
+void draw_reactions(const Case& c, const Simulation& s, const Path& directory) {
+  const CsvFile history = CsvFile::load(directory / "history.csv");
+  const std::vector<double> time = history.numbers("time", Unit::s);
+  Figure figure{c.title + ": reactions", {}, 1, 900, 280};
+  for (const auto& [column, quantity, extensive] :
+       {std::tuple{"burned_mass", "burned mass", Extensive::mass}, {"heat", "heat", Extensive::energy}}) {
+    const Unit unit = unit_of(extensive, c.geometry);
+    std::vector<Curve> curves;
+    for (const gas::Burn& burn : s.gas.burns)
+      curves.push_back({burn.name, {}, history.numbers(burn.name + "_" + column, unit)});
+    figure.panels.push_back(against_time("", quantity, time, std::move(curves), unit));
+    colour_in_order(figure.panels.back());
+  }
+  draw(figure, directory / "reactions.png");
 }
 
 /// A panel for each field that gauges have recorded, as many of them as there are colours.
@@ -161,6 +248,7 @@ void draw_gauges(const Case& c, const Path& directory) {
     const Scale scale = scale_for(shown.front()->unit, most);
     Panel panel;
     panel.x_label = label("time", times), panel.y_label = label(in_words(field), scale);
+    if (end > 0.0) panel.x_range = {{0.0, times.per_si * end}};
     if (const std::size_t count = shown.size(); count > palette_size) {
       panel.title = fmt::format("{} of {}", palette_size, count);
       std::vector<const GaugeSeries*> evenly;
@@ -172,7 +260,6 @@ void draw_gauges(const Case& c, const Path& directory) {
     for (const GaugeSeries* s : shown)
       panel.curves.push_back(
           {in_words(s->label), scaled(s->time, times.per_si), scaled(s->value, scale.per_si), Mark::line, colour++});
-    level(panel);
     figure.panels.push_back(std::move(panel));
   }
   draw(figure, directory / "gauges.png");
@@ -314,11 +401,11 @@ void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, c
     panel.x_label = label(computed.coordinate, lengths);
     panel.y_label = label(in_words(field) + (field == "velocity" ? " along " + computed.coordinate : ""), scale);
     legend_beside(panel);
-    panel.curves.push_back(curve("computed", computed, Mark::dots, 0));
-    panel.curves.back().size = 0.3;
+    panel.x_range = extent({&computed.place, &reference.place}, lengths);
     if (f < reference.values.size() && !reference.values[f].empty())
       panel.curves.push_back(curve("reference", reference, Mark::dashed, 1));
-    level(panel);
+    panel.curves.push_back(curve("computed", computed, Mark::dots, 0));
+    panel.curves.back().size = 0.3;
     figure.panels.push_back(std::move(panel));
   }
   draw(figure, directory / fmt::format("line_{}.png", config.name));
@@ -390,6 +477,8 @@ std::vector<std::string> draw_figures(const Case& c, const Simulation& s, const 
     }
   };
   attempt([&] { s.gas.empty() ? draw_energy(c, directory) : draw_gas_energy(c, s, directory); });
+  if (!s.gas.bodies.empty()) attempt([&] { draw_gas_bodies(c, s, directory); });
+  if (!s.gas.burns.empty()) attempt([&] { draw_reactions(c, s, directory); });
   if (!c.gauges.empty()) attempt([&] { draw_gauges(c, directory); });
   if (s.dimensions() > 1) attempt([&] { draw_field(c, s, directory); });
   std::vector<std::size_t> drawn;

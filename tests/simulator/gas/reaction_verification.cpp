@@ -11,6 +11,7 @@
 
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "simulator/gas/reaction.hpp"
+#include "tests/simulator/gas/chapman_jouguet.hpp"
 #include "tests/simulator/gas/set_up.hpp"
 
 namespace brisance::simulator::gas {
@@ -37,28 +38,6 @@ struct Explosive {
 const Explosive pbx_9501{"PBX 9501", {1838.0, 1668.9e9, 59.69e9, 5.9, 2.1, 0.45, 594.96, 9.499985e9}, 1.0 / 2.78e-11, 7.4};
 const Explosive comp_b{"Comp B", {1717.0, 524.2e9, 7.678e9, 4.2, 1.1, 0.34, 1000.0, 8.5e9}, 1717.0 * 3030.0 * 3030.0, 5.92};
 const Explosive tnt{"TNT", {1630.0, 371.2e9, 3.231e9, 4.15, 0.95, 0.30, 1000.0, 7.0e9}, 1630.0 * 2390.0 * 2390.0, 7.2};
-
-struct ChapmanJouguet {
-  double velocity, pressure, density, particle_velocity;
-};
-/// The least steep Rayleigh line that touches the detonation adiabat, by golden section. The adiabat in its usual form
-/// p(V, E) with E = E0 + p (1 - V)/2 per volume of the explosive, the atmosphere neglected.
-ChapmanJouguet tangent(const JonesWilkinsLee& j) {
-  const auto adiabat = [&](double V) {
-    const double cold =
-        j.A * (1.0 - j.omega / (j.R1 * V)) * std::exp(-j.R1 * V) + j.B * (1.0 - j.omega / (j.R2 * V)) * std::exp(-j.R2 * V);
-    return (cold + j.omega / V * j.detonation_energy) / (1.0 - 0.5 * j.omega / V * (1.0 - V));
-  };
-  const auto steepness = [&](double V) { return adiabat(V) / (1.0 - V); };
-  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  double low = 0.55, high = 0.95;
-  while (high - low > 1e-9) {
-    const double a = high - golden * (high - low), b = low + golden * (high - low);
-    (steepness(a) < steepness(b) ? high : low) = steepness(a) < steepness(b) ? b : a;
-  }
-  const double V = 0.5 * (low + high), p = adiabat(V), D = std::sqrt(steepness(V) / j.reference_density);
-  return {D, p, j.reference_density / V, p / (j.reference_density * D)};
-}
 
 /// A line of explosive, lit at its low end by products at the energy of the explosive and its volume.
 struct Stick {

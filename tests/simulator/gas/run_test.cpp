@@ -85,6 +85,31 @@ TEST(GasRun, IsCheckedBeforeAndDrawnAfter) {
   EXPECT_EQ(call({"report", directory.string()}).code, 0);
 }
 
+/// Bodies and reactions have figures of their own; gnuplot, whose words go to the same place as the program's, has nothing to
+/// say even where nothing happens but rounding.
+TEST(GasRun, DrawsBodiesReactionsAndNothingAtAllWithoutComplaints) {
+  struct Drawn {
+    const char* name;
+    std::vector<std::string> changes;
+    const char* picture;
+  };
+  for (const Drawn& drawn : {Drawn{"gas_driven_projectile", {"cell_size=20 mm", "end_time=0.1 ms"}, "bodies.png"},
+                             {"closed_ring", {"end_time=3"}, "bodies.png"},
+                             {"detonation_tnt", {"cell_size=1 mm", "end_time=1 us"}, "reactions.png"},
+                             {"contact_at_rest", {}, "energy.png"}}) {
+    const Case c = read_case(shipped(drawn.name), drawn.changes);
+    const fs::path directory = scratch() / drawn.name;
+    prepare_directory(directory, c, false);
+    Simulation s = set_up(c);
+    testing::internal::CaptureStderr();
+    const RunResult result = run(c, s, {directory, {}});
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << drawn.name;
+    EXPECT_EQ(result.ending, Ending::done) << result.message;
+    EXPECT_TRUE(fs::exists(directory / drawn.picture)) << drawn.name;
+    EXPECT_FALSE(contains(text_of(directory / "log.txt"), "missing")) << text_of(directory / "log.txt");
+  }
+}
+
 /// The profile comes along with the run: nothing of where the case was is needed to go on.
 TEST(GasRun, FindsItsProfileWhereverItsDirectoryIs) {
   const fs::path directory = scratch(), elsewhere = directory / "elsewhere";
