@@ -376,9 +376,7 @@ class CaseReader : public KeyReader<CaseReader> {
       if (in.has("figure_field")) gas::check_fields(in, {field}, case_, "figure_field");
       return;
     }
-    std::vector<std::string_view> scalars;
-    for (const std::string_view name : gauge_fields)
-      if (name != "position" && name != "velocity") scalars.push_back(name);
+    const std::vector<std::string_view> scalars = scalar_fields();
     if (std::find(scalars.begin(), scalars.end(), field) == scalars.end())
       in.problem("figure_field",
                  in_quotes(field) + " cannot be drawn; it must be one of " + listed(scalars) + did_you_mean(field, scalars));
