@@ -9,9 +9,9 @@
 #include "driver/check.hpp"
 #include "driver/compare.hpp"
 #include "driver/keys.hpp"
-#include "driver/laws.hpp"
 #include "driver/run_command.hpp"
 #include "models/input/diagnostics.hpp"
+#include "models/programs/laws.hpp"
 
 namespace brisance::driver {
 namespace {

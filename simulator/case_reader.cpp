@@ -11,12 +11,10 @@
 #include <utility>
 #include <variant>
 
-#include "models/equation_of_state/thermodynamics.hpp"
 #include "models/input/csv.hpp"
 #include "models/input/table_reader.hpp"
-#include "simulator/gas/fields.hpp"
-#include "simulator/gas/initial_state.hpp"
-#include "simulator/gas/reaction.hpp"
+#include "simulator/case_checks.hpp"
+#include "simulator/gas/case_checks.hpp"
 #include "simulator/keys.hpp"
 #include "simulator/output/gauges.hpp"
 #include "simulator/output/line_out.hpp"
@@ -27,13 +25,6 @@ namespace brisance::simulator {
 namespace {
 
 using Path = std::filesystem::path;
-
-constexpr std::array<std::string_view, 3> axis_names = {"x", "y", "z"};
-constexpr double round_off = 1e-9;  // in cells: positions are decimal numbers in the file
-
-std::string in_metres(double x) {
-  return fmt::format("{:.9g} m", x == 0.0 ? 0.0 : x);
-}
 
 template <class Form>
 ShapePointer make_shape(Form form) {
@@ -135,10 +126,8 @@ class CaseReader : public KeyReader<CaseReader> {
   void read_value(TableReader& in, const K& key, std::optional<GasConfig>& value) {
     TableReader table = in.table(key.name);
     const std::size_t before = in.problem_count();
-    gas_ = &value.emplace();
-    read_keys(table, *gas_);
-    if (in.problem_count() == before && geometry_known_) check_box(table, *gas_);
-    gas_ = nullptr;
+    read_keys(table, value.emplace());
+    if (in.problem_count() == before && geometry_known_) gas::check_gas(table, case_);
   }
   template <class K, class Config>
   void read_value(TableReader& in, const K& key, std::vector<Config>& value) {
@@ -272,23 +261,10 @@ class CaseReader : public KeyReader<CaseReader> {
 
   // --- What must hold beyond the single value -------------------------------------------------------------------------
 
+  /// The tables of the gas.
   template <class Config>
-  void require_own_name(TableReader& in, const Config& config, const std::vector<Config>& others) {
-    const bool taken =
-        std::any_of(others.begin(), others.end(), [&](const Config& other) { return other.name == config.name; });
-    if (taken) in.problem("name", "the name " + in_quotes(config.name) + " is given twice; give each its own");
-  }
-
-  /// Names that become part of the names of files.
-  static void require_file_name(TableReader& in, const std::string& name) {
-    const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    });
-    if (!plain) in.problem("name", in_quotes(name) + ": it becomes part of file names; give letters, digits, _ and -");
-  }
-
-  void require_component_in_geometry(TableReader& in, Axis axis) {
-    if (static_cast<std::size_t>(axis) >= dimensions()) in.problem("axis", "there is no z in two dimensions; give x or y");
+  void check(TableReader& in, Config& config, const std::vector<Config>& others) {
+    gas::check(in, config, others, case_);
   }
 
   /// The body that is meant: the only one if none is named.
@@ -364,7 +340,7 @@ class CaseReader : public KeyReader<CaseReader> {
 
   void check(TableReader& in, BoundaryConfig& boundary, const std::vector<BoundaryConfig>& others) {
     const std::size_t axis = static_cast<std::size_t>(boundary.axis);
-    require_component_in_geometry(in, boundary.axis);
+    require_component_in_geometry(in, boundary.axis, case_);
     if (boundary.name.empty())
       boundary.name = fmt::format("{}_{}_{}", choices<BoundaryKind>[static_cast<std::size_t>(boundary.kind)], axis_names[axis],
                                   choices<Side>[static_cast<std::size_t>(boundary.side)]);
@@ -397,12 +373,10 @@ class CaseReader : public KeyReader<CaseReader> {
   /// Figures are coloured by one number of each particle.
   void check_figure_field(TableReader& in, const std::string& field) {
     if (case_.gas) {
-      if (in.has("figure_field")) check_gas_fields(in, {field}, "figure_field");
+      if (in.has("figure_field")) gas::check_fields(in, {field}, case_, "figure_field");
       return;
     }
-    std::vector<std::string_view> scalars;
-    for (const std::string_view name : gauge_fields)
-      if (name != "position" && name != "velocity") scalars.push_back(name);
+    const std::vector<std::string_view> scalars = scalar_fields();
     if (std::find(scalars.begin(), scalars.end(), field) == scalars.end())
       in.problem("figure_field",
                  in_quotes(field) + " cannot be drawn; it must be one of " + listed(scalars) + did_you_mean(field, scalars));
@@ -446,273 +420,6 @@ class CaseReader : public KeyReader<CaseReader> {
                                    above ? "below" : "above", in_metres(boundary.position), above ? "above" : "below"));
   }
 
-  void check(TableReader& in, FluidConfig& fluid, const std::vector<FluidConfig>& others) {
-    require_own_name(in, fluid, others);
-    if (equation_of_state::caloric(fluid.material.material.equation_of_state) == equation_of_state::Caloric::incremental)
-      in.problem("material", "its equation of state gives differences of pressure only; a fluid needs p(rho, e)");
-  }
-
-  /// `elsewhere`: where else density and pressure come from; empty: nowhere.
-  struct Elsewhere {
-    std::string density, pressure;
-  };
-  template <class State>
-  void check_gas_state(TableReader& in, State& state, const Elsewhere& elsewhere = {}) {
-    if (state.fluid.empty() && gas_->fluids.size() == 1) {
-      state.fluid = gas_->fluids.front().name;
-    } else {
-      std::vector<std::string_view> names;
-      for (const FluidConfig& fluid : gas_->fluids) names.push_back(fluid.name);
-      if (state.fluid.empty())
-        in.problem("which fluid it is is unknown; give `fluid`, " + listed(names));
-      else if (std::find(names.begin(), names.end(), state.fluid) == names.end())
-        in.problem("fluid", "there is no fluid " + in_quotes(state.fluid) + "; there is " + listed(names) +
-                                did_you_mean(state.fluid, names));
-    }
-    if (!in.has("pressure") && elsewhere.pressure.empty()) in.problem("pressure", "missing: the pressure of the gas");
-    if (in.has("pressure") && !elsewhere.pressure.empty())
-      in.problem("pressure", "it follows from " + elsewhere.pressure + "; give one of the two");
-    if (!elsewhere.density.empty()) {
-      if (state.density || state.temperature)
-        in.problem(state.density ? "density" : "temperature",
-                   "the density is in " + elsewhere.density + "; give one of the two");
-    } else if (state.density.has_value() == state.temperature.has_value())
-      in.problem(state.density ? "there are a density and a temperature; give one of the two"
-                               : "neither density nor temperature is given; give one of the two");
-    else if (state.pressure)
-      check_exists(in, state);
-  }
-  void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& others) {
-    Elsewhere elsewhere;
-    if (fill.profile) check_profile(in, *fill.profile, elsewhere);
-    if (fill.energy) {
-      if (!elsewhere.pressure.empty()) in.problem("energy", "the pressure is in the profile; give one of the two");
-      if (!fill.shape) in.problem("shape", "missing: the region that the energy is put into");
-      if (!fill.density) in.problem("density", "missing: an energy needs it");
-      elsewhere.pressure = "the energy";
-    }
-    check_gas_state(in, fill, elsewhere);
-    if (others.empty() && fill.shape) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
-  }
-  void check_profile(TableReader& in, const ProfileConfig& profile, Elsewhere& elsewhere) {
-    const bool radius = profile.along == ProfileAlong::radius;
-    if (!radius && static_cast<std::size_t>(profile.along) >= dimensions())
-      in.problem("profile", fmt::format("there is no {} in this geometry; give a coordinate that it has, or radius",
-                                        choices<ProfileAlong>[static_cast<std::size_t>(profile.along)]));
-    if (!radius && profile.centre != Vector{}) in.problem("profile", "its centre would be ignored: it is not along radius");
-    if (is_round(case_.geometry) && profile.centre[0] != 0.0) in.problem("profile", "its centre lies on the axis; give r = 0");
-    try {
-      const gas::StateProfile read = gas::read_state_profile(profile);
-      if (!read.velocity_around.empty() && !(radius && case_.geometry == Geometry::plane))
-        in.problem("profile", "velocity_around needs the plane geometry and along = \"radius\"");
-      if (!read.density.empty()) elsewhere.density = "the profile";
-      if (!read.pressure.empty()) elsewhere.pressure = "the profile";
-    } catch (const InputError& error) {
-      in.add_problems(error.problems());
-    }
-  }
-  void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& others) {
-    const auto same_side = [&](const EdgeConfig& other) { return other.side == edge.side; };
-    if (std::any_of(others.begin(), others.end(), same_side)) in.problem("side", "this side is given twice; give each once");
-    if (static_cast<std::size_t>(edge.side) / 2 >= dimensions())
-      in.problem("side", fmt::format("in {} dimension{} there is no such side", dimensions(), dimensions() == 1 ? "" : "s"));
-    // A velocity of zero says nothing: a case that a run has written holds one at every edge.
-    const bool more = in.has("density") || in.has("temperature") || edge.velocity != Vector{} || in.has("fluid");
-    if (edge.kind == EdgeKind::inflow || edge.kind == EdgeKind::non_reflecting) {
-      check_gas_state(in, edge);
-    } else if (edge.kind == EdgeKind::pressure) {
-      if (!in.has("pressure")) in.problem("pressure", "missing: the pressure beyond");
-      if (more) in.problem("only the pressure counts beyond an edge of this kind; remove the rest, or make it non_reflecting");
-    } else if (edge.kind == EdgeKind::no_slip) {
-      if (in.has("pressure") || in.has("density") || in.has("fluid"))
-        in.problem("of a wall only its velocity and temperature count; remove the rest");
-      if (edge.velocity[static_cast<std::size_t>(edge.side) / 2] != 0.0)
-        in.problem("velocity", "a wall moves along itself only; make the component across it 0");
-    } else if (more || in.has("pressure")) {
-      in.problem("a state would be ignored: nothing comes through a wall or from beyond a period");
-    }
-  }
-  /// Nothing is said of viscosity and heat that would go unheard.
-  void check_transport(TableReader& in, const GasConfig& gas) {
-    const auto any_fluid = [&](double FluidConfig::*property) {
-      return std::any_of(gas.fluids.begin(), gas.fluids.end(), [&](const FluidConfig& f) { return f.*property > 0.0; });
-    };
-    if (gas.heat_exchange > 0.0 && gas.fluids.size() == 1)
-      in.problem("heat_exchange", "it would be ignored: there is one fluid; remove it");
-    for (const EdgeConfig& edge : gas.edges) {
-      if (edge.kind != EdgeKind::no_slip) continue;
-      const std::string_view side = choices<BoxSide>[static_cast<std::size_t>(edge.side)];
-      if (!any_fluid(&FluidConfig::viscosity))
-        in.problem(
-            "edge",
-            fmt::format("{}: nothing sticks to a wall without viscosity; give a fluid one, or leave the edge out", side));
-      if (edge.temperature && !any_fluid(&FluidConfig::conductivity))
-        in.problem("edge",
-                   fmt::format("{}: its temperature would be ignored: no fluid conducts; give one a conductivity", side));
-    }
-  }
-  /// The limits of simulator/gas/bodies.hpp.
-  void check_with_bodies(TableReader& in, const GasConfig& gas) {
-    const auto refuse = [&](bool when, std::string_view what) {
-      if (when) in.problem("body", std::string(what) + " in a gas with bodies is not possible; remove one of the two");
-    };
-    refuse(case_.gravity != Vector{}, "gravity");
-    refuse(gas.implicit, "the implicit option");
-    refuse(gas.scheme == GasScheme::ice_classic, "the classic scheme");
-    refuse(!gas.reactions.empty(), "a reaction");
-    refuse(gas.heat_exchange > 0.0 || std::any_of(gas.fluids.begin(), gas.fluids.end(),
-                                                  [](const FluidConfig& f) {
-                                                    return f.viscosity > 0.0 || f.bulk_viscosity > 0.0 || f.conductivity > 0.0;
-                                                  }),
-           "viscosity or conduction");
-    refuse(std::any_of(gas.fills.begin(), gas.fills.end(), [](const FillConfig& f) { return f.energy.has_value(); }),
-           "the energy of a fill");
-  }
-  /// The limits of simulator/gas/classic.hpp.
-  void check_classic(TableReader& in, const GasConfig& gas) {
-    const auto refuse = [&](bool when, std::string_view reason) {
-      if (when) in.problem("scheme", "ice_classic " + std::string(reason));
-    };
-    refuse(is_round(case_.geometry), "has no round geometries; use planar_1d, plane or three_dimensional, or scheme = \"ice\"");
-    refuse(std::any_of(gas.edges.begin(), gas.edges.end(),
-                       [](const EdgeConfig& e) { return e.kind != EdgeKind::wall && e.kind != EdgeKind::periodic; }),
-           "has walls and periodic sides only; remove the other edges, or use scheme = \"ice\"");
-    refuse(case_.gravity != Vector{}, "has no gravity; remove it, or use scheme = \"ice\"");
-    refuse(gas.least_mach != GasConfig{}.least_mach, "has no dissipation of faces; remove least_mach, or use scheme = \"ice\"");
-    refuse(gas.implicit, "is explicit; remove implicit, or use scheme = \"ice\"");
-    refuse(
-        std::any_of(gas.fluids.begin(), gas.fluids.end(),
-                    [](const FluidConfig& f) { return f.viscosity > 0.0 || f.bulk_viscosity > 0.0 || f.conductivity > 0.0; }),
-        "has no viscosity or conduction; remove them, or use scheme = \"ice\"");
-    refuse(!gas.reactions.empty(), "has no reactions; remove them, or use scheme = \"ice\"");
-  }
-  static void check(TableReader&, IgnitionConfig&, const std::vector<IgnitionConfig>&) {}
-  void check(TableReader& in, ReactionConfig& reaction, const std::vector<ReactionConfig>& others) {
-    require_own_name(in, reaction, others);
-    std::vector<std::string_view> names;
-    for (const FluidConfig& fluid : gas_->fluids) names.push_back(fluid.name);
-    const auto find = [&](std::string_view key, const std::string& name) -> const FluidConfig* {
-      for (const FluidConfig& fluid : gas_->fluids)
-        if (fluid.name == name) return &fluid;
-      in.problem(key, "there is no fluid " + in_quotes(name) + "; there is " + listed(names) + did_you_mean(name, names));
-      return nullptr;
-    };
-    const FluidConfig* reactant = find("reactant", reaction.reactant);
-    find("product", reaction.product);
-    if (reaction.reactant == reaction.product) in.problem("product", "a fluid cannot burn to itself; name another fluid");
-    const auto burns_too = [&](const ReactionConfig& other) { return other.reactant == reaction.reactant; };
-    if (std::any_of(others.begin(), others.end(), burns_too))
-      in.problem("reactant",
-                 in_quotes(reaction.reactant) + " burns in another [[gas.reaction]] already; each fluid has one law");
-    if (!reactant) return;
-    const std::optional<Reaction>& law = reactant->material.material.reaction;
-    if (!law)
-      return in.problem("reactant", "the material of " + in_quotes(reactant->name) +
-                                        " has no [reaction] table, so how it burns is unknown; give it one");
-    if (std::holds_alternative<reaction::JwlPlusPlus>(*law) && !reaction.ignitions.empty())
-      in.problem("ignition",
-                 "it would be ignored: jwl_plus_plus burns by pressure alone; start it by a [[gas.fill]] of product "
-                 "at high pressure");
-    if (!std::holds_alternative<reaction::ProgramBurn>(*law)) return;
-    for (const IgnitionConfig& ignition : reaction.ignitions)
-      if (ignition.shape && !gas::distance(*ignition.shape, {}))
-        in.problem("ignition",
-                   "a programmed detonation starts from boxes, spheres and unions of them; distances to other shapes "
-                   "are not known");
-  }
-  void check(TableReader& in, GasBodyConfig& body, const std::vector<GasBodyConfig>& others) {
-    require_own_name(in, body, others);
-    require_file_name(in, body.name);
-    if (!geometry_known_) return;
-    if (dimensions() == 1) return in.problem("in one dimension there are no bodies in the gas; take plane");
-    require_component_in_geometry(in, body.axis);
-    const bool round = is_round(case_.geometry);
-    if (body.mass) {
-      if (body.velocity != Vector{} || body.rotation != Vector{} || body.radial_velocity != 0.0 || body.amplitude)
-        in.problem("mass", "the gas drives a body with a mass from rest: a motion would be ignored; remove one of the two");
-      if (round && body.axis != Axis::y) in.problem("axis", "about an axis of symmetry a body can only move along it: y");
-    } else {
-      if (body.axis != Axis::x) in.problem("axis", "it would be ignored: only a body with a mass is driven along it");
-      const bool turns = body.rotation != Vector{} || body.radial_velocity != 0.0;
-      if (body.centre != Vector{} && !turns) in.problem("centre", "it would be ignored: the body neither turns nor grows");
-      if (body.amplitude && !turns && body.velocity == Vector{})
-        in.problem("amplitude", "it would be ignored: there is no velocity that it is a factor on");
-      if (round && body.velocity[0] != 0.0) in.problem("velocity", "about an axis of symmetry a body can only move along it");
-      if (round && body.rotation != Vector{}) in.problem("rotation", "about an axis of symmetry a body cannot turn");
-      if (!round && dimensions() == 2 && (body.rotation[0] != 0.0 || body.rotation[1] != 0.0))
-        in.problem("rotation", "in the plane a body can only turn about z; give [0, 0, ...]");
-    }
-    if (round && body.radial_velocity != 0.0 && body.centre[0] != 0.0)
-      in.problem("centre", "about an axis of symmetry the centre of a radial motion lies on it: x = 0");
-    if ((body.radial_velocity != 0.0) != (body.radius > 0.0))
-      in.problem(body.radius > 0.0 ? "radius" : "radial_velocity", body.radius > 0.0
-                                                                       ? "it would be ignored: there is no radial velocity"
-                                                                       : "give `radius` as well: where it is so");
-  }
-  /// A state that the fluid's law does not have.
-  void check_exists(TableReader& in, const GasStateConfig& state) {
-    for (const FluidConfig& fluid : gas_->fluids) {
-      if (fluid.name != state.fluid) continue;
-      namespace eos = equation_of_state;
-      const EquationOfState& law = fluid.material.material.equation_of_state;
-      if (eos::caloric(law) != eos::Caloric::complete) continue;
-      const double density = state.density ? *state.density : eos::density_at(law, *state.pressure, *state.temperature);
-      constexpr double close = 1e-3;
-      if (density > 0.0) {
-        const double energy = eos::energy_at_pressure(law, density, *state.pressure), p = eos::pressure(law, density, energy);
-        if (std::abs(p - *state.pressure) <= close * std::abs(*state.pressure)) continue;
-        in.problem("pressure", fmt::format("at {:.6g} kg/m^3 {} has no state with {:.6g} Pa; the nearest is {:.6g} Pa", density,
-                                           in_quotes(fluid.name), *state.pressure, p));
-      } else {
-        in.problem("pressure", fmt::format("{} has no state with {:.6g} Pa and {:.6g} K", in_quotes(fluid.name),
-                                           *state.pressure, *state.temperature));
-      }
-    }
-  }
-  void check_box(TableReader& in, GasConfig& gas) {
-    for (std::size_t k = 0; k < dimensions() && case_.cell_size > 0.0; ++k) {
-      if (!(gas.lower[k] < gas.upper[k]))
-        in.problem("upper", fmt::format("along {} the box ends before it begins", axis_names[k]));
-      for (const auto& [name, corner] : {std::pair{"lower", gas.lower[k]}, std::pair{"upper", gas.upper[k]}}) {
-        const double cells = corner / case_.cell_size;
-        if (std::abs(cells - std::round(cells)) > round_off * std::max(1.0, std::abs(cells)))
-          in.problem(name, fmt::format("along {} {} is on no plane of nodes; the nearest are {} and {}", axis_names[k],
-                                       in_metres(corner), in_metres(std::floor(cells) * case_.cell_size),
-                                       in_metres(std::ceil(cells) * case_.cell_size)));
-      }
-      const double cells = (gas.upper[k] - gas.lower[k]) / case_.cell_size;
-      constexpr double least = 4.0;
-      if (cells < least - round_off)
-        in.problem("upper", fmt::format("along {} the box is {:.3g} cells wide; {:g} at least", axis_names[k], cells, least));
-    }
-    if (gas.acoustic_courant != GasConfig{}.acoustic_courant && !gas.implicit)
-      in.problem("acoustic_courant", "it would be ignored: it is the Courant number of implicit = true");
-    if (gas.courant != 0.0 && gas.implicit)
-      in.problem("courant", "it would be ignored: the steps of implicit = true are those of acoustic_courant");
-    if (gas.momentum_exchange != GasConfig{}.momentum_exchange && gas.scheme != GasScheme::ice_classic)
-      in.problem("momentum_exchange",
-                 "it would be ignored: fluids of a cell have one velocity but with scheme = \"ice_classic\"");
-    if (gas.scheme == GasScheme::ice_classic) check_classic(in, gas);
-    check_transport(in, gas);
-    const bool round = is_round(case_.geometry);
-    if (round && gas.lower[0] < 0.0) in.problem("lower", "r = " + in_metres(gas.lower[0]) + "; a radius is not negative");
-    if (round && case_.gravity[0] != 0.0) in.problem("lower", "gravity along r is not possible");
-    if (!gas.bodies.empty()) check_with_bodies(in, gas);
-    for (const EdgeConfig& edge : gas.edges) {
-      const auto number = static_cast<std::size_t>(edge.side);
-      const auto opposite = static_cast<BoxSide>(number ^ 1);
-      const bool both = std::any_of(gas.edges.begin(), gas.edges.end(), [&](const EdgeConfig& other) {
-        return other.side == opposite && other.kind == EdgeKind::periodic;
-      });
-      if (edge.kind == EdgeKind::periodic && !both)
-        in.problem("edge",
-                   fmt::format("{} is periodic, {} is not; give both", choices<BoxSide>[number], choices<BoxSide>[number ^ 1]));
-      if (edge.kind == EdgeKind::periodic && round && number < 2) in.problem("edge", "along r nothing is periodic");
-      if (round && edge.side == BoxSide::low_x && gas.lower[0] == 0.0 && edge.kind != EdgeKind::wall)
-        in.problem("edge", "low_x is the axis; it can be nothing else");
-    }
-  }
-
   void check(TableReader& in, LoadConfig& load, const std::vector<LoadConfig>&) {
     resolve_body(in, load.body, "the load");
     const bool traction = load.traction != Vector{};
@@ -727,7 +434,7 @@ class CaseReader : public KeyReader<CaseReader> {
     require_own_name(in, gauge, others);
     check_surface(in, gauge);
     if (!gauge.body.empty()) require_body(in, gauge.body);
-    if (case_.gas) return check_gas_gauge(in, gauge);
+    if (case_.gas) return gas::check_gauge(in, gauge, case_);
     check_place(in, gauge);
     for (const std::string& field : gauge.fields)
       if (std::find(gauge_fields.begin(), gauge_fields.end(), field) == gauge_fields.end())
@@ -790,35 +497,9 @@ class CaseReader : public KeyReader<CaseReader> {
     return std::any_of(places.begin(), places.end(), [&](const Vector& x) { return near({x, x}); });
   }
 
-  void check_gas_gauge(TableReader& in, GaugeConfig& gauge) {
-    if (gauge.kind != GaugeKind::point && gauge.kind != GaugeKind::line)
-      in.problem("kind", "in gas a gauge is a point or a line");
-    if (gauge.moves.value_or(false)) in.problem("moves", "in gas a gauge stands still");
-    if (!gauge.body.empty()) in.problem("body", "it would be ignored: in gas a gauge watches the gas alone");
-    gauge.moves = false;
-    check_gas_fields(in, gauge.fields);
-    check_in_box(in, gauge.from, gauge.kind == GaugeKind::line ? gauge.to : gauge.from);
-  }
-  void check_gas_fields(TableReader& in, const std::vector<std::string>& fields, std::string_view key = "fields") {
-    std::vector<std::string> fluids, names;
-    for (const FluidConfig& fluid : case_.gas->fluids) fluids.push_back(fluid.name);
-    for (const gas::Field& field : gas::fields(case_.dimensions(), fluids)) names.push_back(field.name);
-    const std::vector<std::string_view> allowed(names.begin(), names.end());
-    for (const std::string& field : fields)
-      if (std::find(names.begin(), names.end(), field) == names.end())
-        in.problem(key, in_quotes(field) + " is not known of gas; it must be one of " + listed(allowed) +
-                            did_you_mean(field, allowed));
-  }
-  void check_in_box(TableReader& in, const Vector& from, const Vector& to) {
-    for (std::size_t k = 0; k < dimensions(); ++k)
-      for (const Vector& place : {from, to})
-        if (place[k] < case_.gas->lower[k] || place[k] > case_.gas->upper[k])
-          return in.problem("from", fmt::format("along {} it leaves the box of the gas", axis_names[k]));
-  }
-
   /// A surface is sought along an axis and goes with the material; the other kinds know neither axis nor side.
   void check_surface(TableReader& in, const GaugeConfig& gauge) {
-    if (gauge.axis) require_component_in_geometry(in, *gauge.axis);
+    if (gauge.axis) require_component_in_geometry(in, *gauge.axis, case_);
     const bool surface = gauge.kind == GaugeKind::surface;
     if (surface && !gauge.axis) in.problem("axis", "missing: the direction in which the surface is sought");
     if (surface && gauge.moves) in.problem("moves", "it would be ignored: a surface is where the material ends");
@@ -828,7 +509,7 @@ class CaseReader : public KeyReader<CaseReader> {
 
   void check(TableReader& in, MeasureConfig& measure, const std::vector<MeasureConfig>& others) {
     resolve_body(in, measure.body, "the measure");
-    require_component_in_geometry(in, measure.axis);
+    require_component_in_geometry(in, measure.axis, case_);
     if (measure.name.empty()) {
       measure.name = choices<MeasureKind>[static_cast<std::size_t>(measure.kind)];
       if (measure.kind == MeasureKind::diameter_at) measure.name += fmt::format("_{}", measure.at);
@@ -858,7 +539,7 @@ class CaseReader : public KeyReader<CaseReader> {
     if (!figure.body.empty() && case_.gas) in.problem("body", "it would be ignored: it is a figure of the gas");
     if (!figure.body.empty() && !case_.gas) require_body(in, figure.body);
     const std::size_t before = in.problem_count();
-    if (case_.gas) check_gas_fields(in, figure.fields), check_in_box(in, figure.from, figure.to);
+    if (case_.gas) gas::check_fields(in, figure.fields, case_), gas::check_in_box(in, figure.from, figure.to, case_);
     const std::span drawable = std::span(gauge_fields).subspan(1);  // all but the position
     for (const std::string& field : figure.fields)
       if (!case_.gas && std::find(drawable.begin(), drawable.end(), field) == drawable.end())
@@ -875,7 +556,6 @@ class CaseReader : public KeyReader<CaseReader> {
   }
 
   Case case_;
-  GasConfig* gas_ = nullptr;  // that is being read
   bool geometry_known_ = true;
 };
 

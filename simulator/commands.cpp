@@ -8,7 +8,9 @@
 
 #include "models/input/diagnostics.hpp"
 #include "models/input/material_folders.hpp"
+#include "models/input/table_reader.hpp"
 #include "models/input/units.hpp"
+#include "models/programs/laws.hpp"
 #include "models/programs/progress.hpp"
 #include "simulator/case_reader.hpp"
 #include "simulator/dry_run.hpp"
@@ -130,17 +132,35 @@ int check_case(const Options& o) {
   return done;
 }
 
-int list() {
+/// Name and title of the cases that come with the program.
+int list_cases() {
+  for (const Path& file : bundled_cases()) {
+    InputFile input = InputFile::load(file);
+    TableReader top = input.top();
+    // Others are of the point driver.
+    if (top.has("cell_size")) fmt::print("{}\n  {}\n", file.string(), top.text_or("title", file.stem().string()));
+  }
+  return done;
+}
+
+int list(const std::string& what) {
+  if (what == "cases") return list_cases();
   const auto row = [](std::string_view title, auto&& names) { fmt::print("{}\n  {}\n", title, fmt::join(names, ", ")); };
   row("geometries", choices<Geometry>), row("shapes", shape_forms), row("boundaries", choices<BoundaryKind>);
   row("gauges", choices<GaugeKind>), row("fields of gauges", gauge_fields), row("measures", choices<MeasureKind>);
+  row("edges of gas", choices<EdgeKind>), row("sides of its box", choices<BoxSide>), row("fields of gas", gas_field_names());
+  std::vector<std::string> reactions;
+  for (const LawPage& law : all_laws())
+    if (law.folder == "reaction") reactions.push_back(law.name);
+  row("laws of reactions", reactions), row("schemes of gas", choices<GasScheme>), row("figures", choices<FigureKind>);
   row("basis functions", choices<Basis>), row("stress timings", choices<StressTiming>),
       row("particle velocities", choices<ParticleVelocity>);
   std::vector<std::string> materials;
   for (const Path& file : bundled_materials()) materials.push_back(file.filename().string());
   row("materials that come with the program", materials);
   fmt::print(
-      "`brisance describe NAME` explains these words and the keys of a case file, `pointdriver list` the laws of materials\n");
+      "`brisance describe NAME` explains these words, the keys of a case file and the laws of materials, which `pointdriver "
+      "list` names; `brisance list cases` names the cases that come with the program\n");
   return done;
 }
 
@@ -150,12 +170,17 @@ int describe_keys(const std::string& key) {
     return done;
   }
   std::string suggestion;
-  const std::vector<KeyDescription> found = describe_key(key, suggestion);
-  if (found.empty()) {
-    fmt::print(stderr, "describe: \"{}\" is no key of a case file{}\n", key, suggestion);
+  const std::optional<std::string> laws = describe_laws(key, suggestion);
+  const std::vector<KeyDescription> found = find_keys(all_keys(), key);
+  if (found.empty() && !laws) {
+    std::vector<std::string_view> names = names_of(all_keys());
+    const std::vector<LawPage> pages = all_laws();
+    for (const LawPage& page : pages) names.push_back(page.name);
+    fmt::print(stderr, "describe: \"{}\" is no key of a case file and no law{}\n", key, did_you_mean(key, names));
     return bad_input;
   }
   for (const KeyDescription& k : found) fmt::print("{}", page_of(k));
+  if (laws) fmt::print("{}{}", found.empty() ? "" : "\n", *laws);
   return done;
 }
 
@@ -197,10 +222,12 @@ int run_command_line(int argc, char** argv) {
   report_command->add_option("DIR", o.directory, "directory of the run")->required();
   report_command->callback([&] { code = report_run(o); });
 
-  app.add_subcommand("list", "Materials, shapes, boundaries, gauges and measures")->callback([&] { code = list(); });
+  CLI::App* list_command = app.add_subcommand("list", "Materials, shapes, boundaries, fields, laws of reactions; cases");
+  list_command->add_option("WHAT", o.key, "`cases`: those that come with the program")->check(CLI::IsMember({"cases"}));
+  list_command->callback([&] { code = list(o.key); });
 
-  CLI::App* describe_command = app.add_subcommand("describe", "What a key of a case file means");
-  describe_command->add_option("KEY", o.key, "path or last name of a key, a table, or a value; without it all keys");
+  CLI::App* describe_command = app.add_subcommand("describe", "What a key of a case file, one of its values or a law means");
+  describe_command->add_option("KEY", o.key, "path or last name of a key, a table, a value, or a law; without it all keys");
   describe_command->callback([&] { code = describe_keys(o.key); });
 
   return exit_code_of([&] {

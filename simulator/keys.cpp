@@ -1,6 +1,10 @@
 #include "simulator/keys.hpp"
 
+#include <algorithm>
+#include <span>
 #include <variant>
+
+#include "simulator/gas/fields.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -20,9 +24,27 @@ class Describer : public KeyDescriber<Describer> {
   void describe(const std::string& path, const K& key, const std::filesystem::path&) {
     add(path, key, "the name of a file");
   }
+  /// Fields of solids, or of gas.
+  template <class K>
+  void describe_fields(const std::string& path, const K& key, std::string_view what, std::span<const std::string_view> fields,
+                       std::string default_value = "") {
+    std::vector<std::string_view> words(fields.begin(), fields.end());
+    for (const std::string_view field : gas_field_names())
+      if (std::find(words.begin(), words.end(), field) == words.end()) words.push_back(field);
+    add(path, key,
+        std::string(what) + " of " + listed(fields) + "; of gas " + listed(gas_field_names()) +
+            " (its part of the volume, of several fluids)",
+        std::move(default_value), words);
+  }
   template <class K>
   void describe(const std::string& path, const K& key, const std::vector<std::string>&) {
-    add(path, key, "a list of texts, each one of " + listed(gauge_fields), "", gauge_fields);
+    const std::span all(gauge_fields);
+    describe_fields(path, key, "a list of texts, each one",
+                    std::is_same_v<K, Key<FigureConfig, std::vector<std::string>>> ? all.subspan(1) : all);
+  }
+  /// The only text of the output is figure_field.
+  void describe(const std::string& path, const Key<OutputConfig, std::string>& key, const std::string& fresh) {
+    describe_fields(path, key, "one", scalar_fields(), fresh + ", of gas density");
   }
   template <class K>
   void describe(const std::string& path, const K& key, const Vector&) {
@@ -90,6 +112,23 @@ class Describer : public KeyDescriber<Describer> {
 
 }  // namespace
 
+const std::vector<std::string_view>& gas_field_names() {
+  static const std::vector<gas::Field> fields = gas::fields(1, {"FLUID", "..."});
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const gas::Field& field : std::span(fields).first(fields.size() - 1)) all.push_back(field.name);
+    return all;
+  }();
+  return names;
+}
+
+std::vector<std::string_view> scalar_fields() {
+  std::vector<std::string_view> scalars;
+  for (const std::string_view name : gauge_fields)
+    if (name != "position" && name != "velocity") scalars.push_back(name);
+  return scalars;
+}
+
 const std::vector<KeyDescription>& all_keys() {
   static const std::vector<KeyDescription> rows = [] {
     Describer describer;
@@ -97,12 +136,6 @@ const std::vector<KeyDescription>& all_keys() {
     return describer.take();
   }();
   return rows;
-}
-
-std::vector<KeyDescription> describe_key(std::string_view path, std::string& suggestion) {
-  std::vector<KeyDescription> found = find_keys(all_keys(), path);
-  if (found.empty()) suggestion = did_you_mean(path, names_of(all_keys()));
-  return found;
 }
 
 }  // namespace brisance::simulator

@@ -182,7 +182,8 @@ inline constexpr auto keys<EdgeConfig> = std::tuple_cat(
     std::tuple{Key{"side", &EdgeConfig::side, Unit::one, "side of the box", any_value, required},
                Key{"kind", &EdgeConfig::kind, Unit::one,
                    "wall: reflects; inflow: the state beyond is given; pressure: the pressure beyond is given; non_reflecting: "
-                   "waves leave into a given state; periodic: continues at the opposite side",
+                   "waves leave into a given state; periodic: continues at the opposite side; no_slip: a wall that viscous "
+                   "fluids stick to",
                    any_value, required}},
     gas_state_keys<EdgeConfig>);
 
@@ -251,7 +252,8 @@ inline constexpr auto keys<GasConfig> = std::tuple{
 template <>
 inline constexpr auto keys<GaugeConfig> = std::tuple{
     Key{"name", &GaugeConfig::name, Unit::one, "what it is called in output", any_value, required},
-    Key{"kind", &GaugeConfig::kind, Unit::one, "point, line from one point to another, plane, or surface", any_value, required},
+    Key{"kind", &GaugeConfig::kind, Unit::one, "point, line from one point to another, plane, or surface; in gas point or line",
+        any_value, required},
     Key{"fields", &GaugeConfig::fields, Unit::one, "what it records", any_value, required},
     Key{"from", &GaugeConfig::from, Unit::m, "the point; first end of the line; lower corner", any_value, required},
     Key{"to", &GaugeConfig::to, Unit::m, "last end of the line; upper corner"},
@@ -361,11 +363,11 @@ inline constexpr auto keys<Case> =
 
 // Description ------------------------------------------------------------------------------------------------------------
 
+/// What gauges and figures may show of gas, and what `figure_field` may be of solids.
+const std::vector<std::string_view>& gas_field_names();
+std::vector<std::string_view> scalar_fields();
+
 /// Every key of a case file, in the order of the tables above.
 const std::vector<KeyDescription>& all_keys();
-
-/// The descriptions of the keys with this path, or below it, or with this last name, or that may have this value. Empty: none;
-/// then `suggestion` ends the error message.
-std::vector<KeyDescription> describe_key(std::string_view path, std::string& suggestion);
 
 }  // namespace brisance::simulator

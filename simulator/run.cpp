@@ -115,7 +115,7 @@ class Run {
       result.ending = interrupted_ ? Ending::interrupted : Ending::done;
     } catch (const std::exception& error) {
       result.ending = Ending::failed;
-      if (dynamic_cast<const RunFailure*>(&error)) keep_last_state();
+      if (dynamic_cast<const RunFailure*>(&error) || dynamic_cast<const gas::BodiesMeet*>(&error)) keep_last_state();
       result.message = fmt::format(
           "{}\n{}", error.what(),
           last_checkpoint_.empty() ? "no checkpoint has been written" : "last checkpoint: " + last_checkpoint_.string());
@@ -245,6 +245,8 @@ class Run {
     }
     log_.line(fmt::format("{} at step {}, time {:.6g} s{}{}", word_of(result.ending), s_.step, s_.time,
                           result.message.empty() ? "" : ": ", result.message));
+    if (const auto& gas = result.summary.books.gas)
+      for (const gas::RangeReport& report : gas->outside) log_.line("warning: " + in_words(report, s_.dimensions()));
     if (result.ending != Ending::done || !case_.output.figures) return;
     for (const std::string& trouble : draw_figures(case_, s_, options_.directory)) log_.line(trouble);
   }

@@ -48,6 +48,16 @@ std::vector<Path> bundled_materials() {
   return bundled_materials(material_folders());
 }
 
+std::vector<Path> bundled_cases() {
+  std::vector<Path> folders = material_folders();
+  for (Path& folder : folders) folder = folder.parent_path() / "cases";
+  for (const Path& folder : folders)
+    if (std::vector<Path> files = files_in(folder); !files.empty()) return files;
+  throw InputError({{"", 0, 0, "",
+                     "the cases that come with the program are not there: looked in " + joined(folders) +
+                         "; install them (cmake --install BUILD)"}});
+}
+
 std::optional<Path> find_material(const Path& name, const Path& beside) {
   std::error_code error;
   const Path own = beside / name;

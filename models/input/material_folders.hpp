@@ -17,6 +17,9 @@ std::vector<std::filesystem::path> material_folders();
 std::vector<std::filesystem::path> bundled_materials(std::span<const std::filesystem::path> folders);
 std::vector<std::filesystem::path> bundled_materials();
 
+/// The case files in the folder beside that of the materials, by name. Throws InputError if there are none.
+std::vector<std::filesystem::path> bundled_cases();
+
 /// The file that a name means: one in the folder `beside`, else one that comes with the programs.
 std::optional<std::filesystem::path> find_material(const std::filesystem::path& name, const std::filesystem::path& beside);
 

@@ -104,12 +104,40 @@ void place_bodies(Gas& gas, Domain& domain) {
   bodies.open.resize(gas.cells.blocks.size());
   for (std::size_t block = 0; block < gas.cells.blocks.size(); ++block)
     std::fill_n(bodies.open.at(block, 0), gas.cells.packs(), Lanes(1.0));
-  if (bodies.window.empty()) return;
-  std::vector<BodyPoints> points;
-  for (const MovingBody& body : bodies.all) points.push_back(points_of(body, gas.cells.geometry, body.state, body.state, 0.0));
-  put_on_nodes(bodies.window, gas.cells, images_of(gas), points, bodies.nodes);
-  find_open_space(bodies.window, gas.cells, bodies.nodes, bodies.space);
-  keep_open_parts(gas);
+  double overlap = 1.0;
+  if (!bodies.window.empty()) {
+    std::vector<BodyPoints> points;
+    for (const MovingBody& body : bodies.all)
+      points.push_back(points_of(body, gas.cells.geometry, body.state, body.state, 0.0));
+    put_on_nodes(bodies.window, gas.cells, images_of(gas), points, bodies.nodes);
+    find_open_space(bodies.window, gas.cells, bodies.nodes, bodies.space);
+    keep_open_parts(gas);
+    for_each_cell_of(bodies.nodes.touched, [&](const std::array<int, 3>& node) {
+      overlap = std::max(overlap, shared_fraction(bodies.nodes, bodies.window.at(node)));
+    });
+  }
+  bodies.overlap = domain.maximum(overlap);
+}
+
+std::size_t bytes_of(const Bodies& bodies) {
+  std::size_t sum = bodies.open.bytes();
+  const auto add = [&](const auto&... lists) { ((sum += lists.capacity() * sizeof(lists[0])), ...); };
+  const auto add_all = [&](const auto&... lists) {
+    for (const auto* of : {&lists...})
+      for (const auto& list : *of) add(list);
+  };
+  for (const OpenSpace* space : {&bodies.space, &bodies.next_space}) add(space->volume, space->side), add_all(space->area);
+  const BodyNodes& nodes = bodies.nodes;
+  add(nodes.fraction, nodes.share, nodes.body, nodes.second_share, nodes.other), add_all(nodes.momentum);
+  add(bodies.step.cut, bodies.step.is_cut), add_all(bodies.step.area, bodies.step.smooth);
+  add(bodies.small.small, bodies.small.number, bodies.small.overlaps, bodies.small.shared);
+  const StepFields& s = bodies.fields;
+  add_all(s.primitive, s.content, s.change, s.half, s.part, s.fluid_density, s.fluid_energy);
+  add_all(s.flow, s.pressure, s.velocity);
+  for (const auto& of_axis : s.passing) add_all(of_axis);
+  add(s.volume, s.density, s.energy, s.covered, s.mean, s.plain);
+  for (const MovingBody& body : bodies.all) add(body.places, body.volumes);
+  return sum;
 }
 
 BoxImages images_of(const Gas& gas) {

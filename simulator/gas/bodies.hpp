@@ -4,6 +4,7 @@
 // (bodies_step.cpp).
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 #include "simulator/gas/redistribution.hpp"
@@ -55,6 +56,19 @@ struct StepFields {
   std::vector<Column> part, fluid_density, fluid_energy;  // of each of several fluids: of the volume, by its own volume
   std::array<std::vector<Column>, 3> passing;             // content through the low faces
   Column covered, mean;                                   // for the redistribution
+  Column plain;                                           // 1 where a cell does without slopes, in careful steps
+};
+
+/// Momentum and work that a body has received from the gas in a step.
+struct Received {
+  Vector impulse{};   // N s
+  double work = 0.0;  // J, of the pressure on the wall
+  double push = 0.0;  // N s, the impulses of all of its cells without their directions
+};
+
+/// A body is about to run into something, and the gas between has nowhere to go: what() says which body, into what, and when.
+struct BodiesMeet : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 struct Bodies {
@@ -70,7 +84,12 @@ struct Bodies {
   CutCells step;
   Neighbourhoods small;
   StepFields fields;
-  bool still = false;  // `step` is one in which nothing has moved
+  bool still = false;    // `step` is one in which nothing has moved
+  double overlap = 1.0;  // the largest solid fraction of a node that two bodies share, at the start
+  // What the step under way would make of the bodies:
+  std::vector<MovingBody::State> next;
+  std::vector<Received> received;
+  std::vector<double> entrapped_now;
 
   bool empty() const { return all.empty(); }
 };
@@ -93,8 +112,17 @@ void keep_open_parts(Gas& gas);
 /// Part of a cell that is gas.
 double open_part(const Gas& gas, std::size_t block, int cell);
 
-enum class Outcome;
-Outcome advance_with_bodies(Gas& gas, double dt, Domain& domain);
+/// Finds where the bodies go in dt (s), and what that leaves open. False if a shorter step is needed: gas would change the side
+/// of a thin wall. Throws BodiesMeet.
+bool move_bodies(Gas& gas, double dt, Domain& domain);
+/// The step of the gas around them; false if a cell does not bear it. Such cells are marked then, and what `half_step` calls
+/// plain does without slopes, as in gas.cpp. Nothing of the state has changed in either case. Throws BodiesMeet.
+bool try_step_with_bodies(Gas& gas, double dt, Domain& domain);
+/// What has been found becomes the state of gas and bodies.
+void settle_with_bodies(Gas& gas, double dt, Domain& domain);
+
+/// Memory, with the particles.
+std::size_t bytes_of(const Bodies& bodies);
 
 /// What a checkpoint has to keep of them, and back.
 std::vector<double> numbers_of(const Bodies& bodies);

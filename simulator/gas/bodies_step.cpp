@@ -1,17 +1,23 @@
 // One step of a gas with bodies in it: what lagrangian.cpp and remap.cpp do axis by axis is done for all axes at once, because
 // the volumes between the sweeps of a split remap need not be positive in cells that a wall cuts.
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "simulator/domain/message.hpp"
 #include "simulator/gas/acoustic.hpp"
+#include "simulator/gas/donor.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/gas.hpp"
 #include "simulator/gas/limiter.hpp"
 #include "simulator/gas/passages.hpp"
 #include "simulator/gas/sums.hpp"
+#include "simulator/gas/timed.hpp"
 #include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
@@ -26,6 +32,15 @@ std::size_t offset(const Window& w, std::size_t axis) {
 }
 Lanes at(const Column& column, std::size_t n) {
   return Lanes::load(column.data() + n);
+}
+/// Volumes of eight whole cells.
+Lanes whole_volumes(const Cells& cells, const Window& w, std::size_t n) {
+  Lanes whole;
+  for (int l = 0; l < 8; ++l) {
+    const std::size_t cell = std::min(n + static_cast<std::size_t>(l), w.first + w.cells - 1);
+    whole.set(l, whole_cell(cells, w.index(cell)[0]).volume);
+  }
+  return whole;
 }
 /// Calls f(n) for the first of every eight cells of the window.
 template <class F>
@@ -47,7 +62,7 @@ void make_room(const Gas& gas, StepFields& s, std::size_t length) {
   const auto contents = static_cast<std::size_t>(gas.contents());
   columns(s.primitive, static_cast<std::size_t>(gas.primitive.quantities()));
   columns(s.content, contents), columns(s.change, contents), columns(s.half, 1 + D);
-  for (Column* c : {&s.volume, &s.density, &s.energy, &s.covered, &s.mean}) c->assign(length, 1.0);
+  for (Column* c : {&s.volume, &s.density, &s.energy, &s.covered, &s.mean, &s.plain}) c->assign(length, 1.0);
   for (std::size_t a = 0; a < D; ++a) {
     s.flow[a].assign(length, 0.0), s.pressure[a].assign(length, 0.0), s.velocity[a].assign(length, 0.0);
     columns(s.passing[a], contents);
@@ -85,16 +100,21 @@ Part seen_part(const Cells& cells, const Index& corner, const Index& shift, cons
   return p;
 }
 
+/// A quantity of the cells, and the column that it goes to.
+struct Gathered {
+  const CellSet* set;
+  int quantity;
+  Column* column;
+};
+
 /// Takes what the own blocks and those of other ranks hold into the window.
-void gather(Gas& gas, Domain& domain) {
-  Bodies& bodies = gas.bodies;
+void gather(const Gas& gas, const std::vector<Gathered>& wanted, Domain& domain) {
+  const Bodies& bodies = gas.bodies;
   const Cells& cells = gas.cells;
   const Window& w = bodies.window;
-  StepFields& s = bodies.fields;
   const std::vector<Index> shifts = shifts_of(gas);
   const auto me = static_cast<std::size_t>(domain.rank());
-  const auto place = [&](const Index& corner, const double* primitive, const double* content) {
-    const std::size_t numbers = static_cast<std::size_t>(8 * cells.packs());
+  const auto place = [&](const Index& corner, auto&& numbers_of) {
     for (const Index& shift : shifts) {
       const Part seen = seen_part(cells, corner, shift, bodies.windows[me]);
       if (seen.empty()) continue;
@@ -104,14 +124,12 @@ void gather(Gas& gas, Domain& domain) {
                            (w.dimensions == 3 ? 64 * (k - shift[2] - corner[2]) : 0);
           const std::size_t to = w.at({seen.lower[0], j, k});
           const auto count = static_cast<std::size_t>(seen.upper[0] - seen.lower[0]);
-          for (std::size_t q = 0; q < s.primitive.size(); ++q)
-            std::copy_n(primitive + q * numbers + static_cast<std::size_t>(from), count, s.primitive[q].data() + to);
-          for (std::size_t q = 0; q < s.content.size(); ++q)
-            std::copy_n(content + q * numbers + static_cast<std::size_t>(from), count, s.content[q].data() + to);
+          for (std::size_t q = 0; q < wanted.size(); ++q)
+            std::copy_n(numbers_of(q) + from, count, wanted[q].column->data() + to);
         }
     }
   };
-  const auto numbers_in = [&](const CellSet& set) { return static_cast<std::size_t>(set.quantities() * set.packs()); };
+  const auto packs = static_cast<std::size_t>(cells.packs());
   if (domain.size() > 1) {
     std::vector<Message> messages(bodies.windows.size());
     for (std::size_t r = 0; r < messages.size(); ++r) {
@@ -124,23 +142,32 @@ void gather(Gas& gas, Domain& domain) {
         });
         if (!seen) continue;
         append(messages[r], corner);
-        append(messages[r], gas.primitive.at(block, 0), numbers_in(gas.primitive));
-        append(messages[r], gas.content.at(block, 0), numbers_in(gas.content));
+        for (const Gathered& g : wanted) append(messages[r], g.set->at(block, g.quantity), packs);
       }
     }
-    std::vector<Lanes> primitive(numbers_in(gas.primitive)), content(numbers_in(gas.content));
+    std::vector<Lanes> numbers(wanted.size() * packs);
     for (const Message& message : domain.exchange(std::move(messages)))
       for (MessageReader reader(message); !reader.at_end();) {
         const auto corner = reader.read<Index>();
-        reader.read(primitive.data(), primitive.size()), reader.read(content.data(), content.size());
-        place(corner, reinterpret_cast<const double*>(primitive.data()), reinterpret_cast<const double*>(content.data()));
+        reader.read(numbers.data(), numbers.size());
+        place(corner, [&](std::size_t q) { return reinterpret_cast<const double*>(numbers.data() + q * packs); });
       }
   }
   for (const std::int32_t b : cells.mine) {
     const auto block = static_cast<std::size_t>(b);
-    place(cells.corner(block), reinterpret_cast<const double*>(gas.primitive.at(block, 0)),
-          reinterpret_cast<const double*>(gas.content.at(block, 0)));
+    place(cells.corner(block),
+          [&](std::size_t q) { return reinterpret_cast<const double*>(wanted[q].set->at(block, wanted[q].quantity)); });
   }
+}
+
+/// The state at the start of the step, and which cells do without slopes.
+void gather_state(Gas& gas, Domain& domain) {
+  StepFields& s = gas.bodies.fields;
+  std::vector<Gathered> wanted;
+  for (std::size_t q = 0; q < s.primitive.size(); ++q) wanted.push_back({&gas.primitive, static_cast<int>(q), &s.primitive[q]});
+  for (std::size_t q = 0; q < s.content.size(); ++q) wanted.push_back({&gas.content, static_cast<int>(q), &s.content[q]});
+  if (gas.careful) wanted.push_back({&gas.half_step, HalfStep::plain(gas.dimensions()), &s.plain});
+  gather(gas, wanted, domain);
 }
 
 /// Writes a state into a cell of the window.
@@ -190,6 +217,7 @@ void fill_beyond(Gas& gas) {
       const std::size_t n = w.at(cell), source = w.at(from);
       for (Column& column : s.primitive) column[n] = column[source];
       for (Column& column : s.content) column[n] = column[source];
+      s.plain[n] = s.plain[source];
       s.primitive[Primitive::velocity + a][n] *= sign, s.content[Content::momentum + a][n] *= sign;
       if (edge.kind == EdgeKind::wall) return;
       Vector x{};
@@ -241,11 +269,14 @@ void half_step(Gas& gas, double dt) {
       divergence += select(whole, widening * at(s.primitive[Primitive::velocity], n), Lanes(0.0));
     }
     (-0.5 * dt * density * sound * sound * divergence).store(s.half[HalfStep::pressure].data() + n);
+    if (!gas.careful) return;
+    const LanesMask plain = at(s.plain, n) > 0.0;
+    for (Column& half : s.half) select(plain, Lanes(0.0), at(half, n)).store(half.data() + n);
   });
 }
 
-FaceSide face_side(const StepFields& s, const Window& w, const CutCells& step, std::size_t n, std::size_t axis,
-                   double towards) {
+FaceSide face_side(const StepFields& s, const Window& w, const CutCells& step, std::size_t n, std::size_t axis, double towards,
+                   const LanesMask& plain) {
   const LanesMask smooth = at(step.smooth[axis], n) > 0.5;
   const auto slope_of = [&](int quantity) {
     return slope_at(s.primitive[static_cast<std::size_t>(quantity)], n, offset(w, axis), smooth);
@@ -257,7 +288,12 @@ FaceSide face_side(const StepFields& s, const Window& w, const CutCells& step, s
   side.density = density + towards * slope_of(Primitive::density);
   side.pressure = pressure + towards * slope_of(Primitive::pressure) + at(s.half[HalfStep::pressure], n);
   side.velocity = velocity + towards * slope_of(along) + at(s.half[HalfStep::velocity + axis], n);
-  return trusted(side, density, pressure, velocity);
+  return trusted(side, density, pressure, velocity, plain);
+}
+/// Faces between two cells of which one does without slopes.
+LanesMask first_order(const Gas& gas, std::size_t low, std::size_t high) {
+  if (!gas.careful) return LanesMask(false);
+  return at(gas.bodies.fields.plain, low) + at(gas.bodies.fields.plain, high) > 0.0;
 }
 FaceSide chosen(const LanesMask& yes, const FaceSide& a, const FaceSide& b) {
   return {select(yes, a.velocity, b.velocity), select(yes, a.pressure, b.pressure), select(yes, a.density, b.density)};
@@ -279,7 +315,8 @@ void find_faces(Gas& gas, double dt) {
   for (std::size_t a = 0; a < D; ++a)
     for_each_eight(w, [&](std::size_t n) {
       const std::size_t l = n - offset(w, a);
-      FaceSide L = face_side(s, w, step, l, a, 0.5), R = face_side(s, w, step, n, a, -0.5);
+      const LanesMask plain = first_order(gas, l, n);
+      FaceSide L = face_side(s, w, step, l, a, 0.5, plain), R = face_side(s, w, step, n, a, -0.5, plain);
       Lanes sound_L = at(s.primitive[Primitive::sound_speed], l), sound_R = at(s.primitive[Primitive::sound_speed], n);
       // A cell that is only being opened has no state to send.
       const LanesMask gas_L = at(gas.bodies.space.volume, l) > 0.0, gas_R = at(gas.bodies.space.volume, n) > 0.0;
@@ -348,13 +385,6 @@ WallPush wall_pressure(const Gas& gas, const CutCell& c) {
   return {std::max(std::min(p, 0.0), p + rho * wave * closing), p};
 }
 
-/// Momentum and work that bodies have received from the gas in a step.
-struct Received {
-  Vector impulse{};   // N s
-  double work = 0.0;  // J, of the pressure on the wall
-  double push = 0.0;  // N s, the impulses of all of its cells without their directions
-};
-
 /// Pushes cells along; returns what the cut cells give to the bodies, one of each cut cell.
 std::vector<Received> push_cells(Gas& gas, double dt) {
   const Window& w = gas.bodies.window;
@@ -411,9 +441,11 @@ void for_each_cut_cell(const Gas& gas, const std::vector<std::int32_t>& number, 
 
 /// Sums what each body has received, and gives back to the gas what the work of the wall's pressure exceeds the work on a body
 /// that the gas drives by: to each cell as it has pushed. Also sets the bodies' next velocities.
-void settle_with_bodies(Gas& gas, const std::vector<Received>& received, double dt, std::vector<MovingBody::State>& next,
-                        std::vector<Received>& sums, Domain& domain) {
+void push_bodies(Gas& gas, const std::vector<Received>& received, double dt, Domain& domain) {
   Bodies& bodies = gas.bodies;
+  std::vector<MovingBody::State>& next = bodies.next;
+  std::vector<Received>& sums = bodies.received;
+  sums.assign(bodies.all.size(), {});
   StepFields& s = bodies.fields;
   std::vector<std::int32_t> number(bodies.window.length, -1);
   for (std::size_t k = 0; k < bodies.step.cut.size(); ++k) number[bodies.step.cut[k].cell] = static_cast<std::int32_t>(k);
@@ -458,12 +490,7 @@ void share_changes(Gas& gas) {
   const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
   const auto first = [&](std::size_t r) { return Content::momentum + D + 3 * r; };
   for_each_eight(w, [&](std::size_t n) {
-    Lanes whole;
-    for (int l = 0; l < 8; ++l) {
-      const std::size_t cell = std::min(n + static_cast<std::size_t>(l), w.first + w.cells - 1);
-      whole.set(l, whole_cell(gas.cells, w.index(cell)[0]).volume);
-    }
-    const Lanes volume = at(bodies.space.volume, n), open = volume / whole;
+    const Lanes volume = at(bodies.space.volume, n), open = volume / whole_volumes(gas.cells, w, n);
     Lanes mass(0.0), kinetic_before(0.0), kinetic(0.0);
     for (std::size_t r = 0; r < fluids; ++r) mass += open * at(s.content[first(r) + Content::mass], n);
     for (std::size_t a = 0; a < D; ++a) {
@@ -474,7 +501,6 @@ void share_changes(Gas& gas) {
     const Lanes growth = at(s.volume, n) - volume;
     const Lanes work = at(s.change[Content::energy], n) - 0.5 * (kinetic - kinetic_before) / mass;
     const LanesMask gas_here = volume > 0.0;
-    // As in lagrangian.cpp: no fluid takes more than its half or double, the rest goes to that with most volume.
     Lanes rest(1.0), largest(0.0);
     for (std::size_t r = 0; r < fluids; ++r) largest = max(largest, at(s.content[first(r) + Content::volume], n));
     std::vector<Lanes> share(fluids);
@@ -484,8 +510,8 @@ void share_changes(Gas& gas) {
       const Lanes own = at(s.content[first(r) + Content::volume], n);
       majority[r] = (own == largest) & !given;
       given |= majority[r];
-      const Lanes most = select(growth < 0.0, Lanes(0.5), Lanes(1.0)) * (open * own) / max(abs(growth), Lanes(1e-300));
-      share[r] = select(majority[r], Lanes(0.0), min(at(s.primitive[Primitive::velocity + D + r], n), max(most, Lanes(0.0))));
+      const Lanes wanted = at(s.primitive[Primitive::velocity + D + r], n);
+      share[r] = select(majority[r], Lanes(0.0), limited_share(wanted, growth, open * own));
       rest -= share[r];
     }
     for (std::size_t r = 0; r < fluids; ++r) {
@@ -532,12 +558,7 @@ void find_donors(Gas& gas) {
     put(s.energy, internal / volume);
   };
   for_each_eight(w, [&](std::size_t n) {
-    Lanes whole;
-    for (int l = 0; l < 8; ++l) {
-      const std::size_t cell = std::min(n + static_cast<std::size_t>(l), w.first + w.cells - 1);
-      whole.set(l, whole_cell(gas.cells, w.index(cell)[0]).volume);
-    }
-    const Lanes open = at(bodies.space.volume, n) / whole;
+    const Lanes open = at(bodies.space.volume, n) / whole_volumes(gas.cells, w, n);
     write([&](std::size_t q) { return open * at(s.content[q], n) + at(s.change[q], n); }, at(s.volume, n),
           [&](Column& column, const Lanes& value) { value.store(column.data() + n); });
   });
@@ -568,10 +589,7 @@ struct Giving {
 
   Lanes of(const Column& q) const { return select(up, at(q, low), at(q, high)); }
   Lanes difference(const Column& q, const Lanes& leaving) const {
-    const Lanes l = at(q, low), r = at(q, high);
-    const Lanes ahead = select(up, r - l, l - r);
-    const Lanes behind = select(up, l - at(q, low - step), r - at(q, high + step));
-    return upwind_difference(select(up, l, r), behind, ahead, leaving);
+    return difference_across_donor(up, at(q, low - step), at(q, low), at(q, high), at(q, high + step), leaving);
   }
   Lanes leaving(const Column& q, const Lanes& own_part, const LanesMask& where) const {
     return of(q) + select(where, 0.5 * (1.0 - own_part) * difference(q, own_part), Lanes(0.0));
@@ -579,15 +597,29 @@ struct Giving {
   Lanes leaving(const Column& q) const { return leaving(q, part, smooth); }
 };
 
-/// What passes the faces across an axis. Momentum and energy as in remap.cpp: the heat of both parts of a cell pays for their
-/// different velocities.
-void find_passing(Gas& gas, double dt, std::size_t axis) {
+/// Cells of a group of eight that this process owns and that hold gas: what they do is counted.
+int count_own(const Gas& gas, const LanesMask& cells, const LanesMask& up, std::size_t low, std::size_t high) {
+  const Bodies& bodies = gas.bodies;
+  int count = 0;
+  for (std::size_t l = 0; l < 8; ++l) {
+    if (!cells[static_cast<int>(l)]) continue;
+    const std::size_t n = (up[static_cast<int>(l)] ? low : high) + l;
+    if (n < bodies.window.first || n >= bodies.window.first + bodies.window.cells || !(bodies.space.volume[n] > 0.0)) continue;
+    const Index cell = bodies.window.index(n);
+    count += gas.cells.contains(cell) && gas.cells.find(cell) ? 1 : 0;
+  }
+  return count;
+}
+
+/// What passes the faces across an axis. Returns how many slopes of own cells have been taken back.
+std::int64_t find_passing(Gas& gas, double dt, std::size_t axis) {
   Bodies& bodies = gas.bodies;
   const Window& w = bodies.window;
   StepFields& s = bodies.fields;
   const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
   const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
   std::vector<Column>& passing = s.passing[axis];
+  std::atomic<std::int64_t> flattened = 0;
   for_each_eight(w, [&](std::size_t n) {
     const Lanes swept = dt * at(s.flow[axis], n);
     const LanesMask none_passes = swept == 0.0;
@@ -596,7 +628,7 @@ void find_passing(Gas& gas, double dt, std::size_t axis) {
     };
     Giving giving{n - offset(w, axis), n, offset(w, axis), swept > 0.0, LanesMask(false), Lanes(0.0)};
     giving.part = abs(swept) / giving.of(s.volume);
-    giving.smooth = giving.of(bodies.step.smooth[axis]) > 0.5;
+    giving.smooth = (giving.of(bodies.step.smooth[axis]) > 0.5) & !first_order(gas, giving.low, giving.high);
     Lanes mass(0.0), heat(0.0);
     if (fluids == 1) {
       mass = swept * giving.leaving(s.density), heat = swept * giving.leaving(s.energy);
@@ -643,19 +675,17 @@ void find_passing(Gas& gas, double dt, std::size_t axis) {
       slopes[a] = select(giving.smooth, select(giving.up, of(giving.low), of(giving.high)), Lanes(0.0));
       steepness += slopes[a] * slopes[a];
     }
-    constexpr double most = 0.5;
-    const Lanes cost = 0.125 * part * (1.0 - part) * density * steepness, energy = max(giving.of(s.energy), Lanes(0.0));
-    const LanesMask too_steep = cost > most * energy;
-    Lanes offset_of = select(giving.up, 0.5 * (1.0 - part), -0.5 * (1.0 - part));
-    offset_of = select(too_steep, offset_of * sqrt(most * energy / max(cost, Lanes(1e-300))), offset_of);
-    const Lanes kept = 1.0 - min(cost, Lanes(most * energy)) / max(energy, Lanes(1e-300));
+    const Leaving leaving = leaving_with_momentum(giving.up, part, density, steepness, giving.of(s.energy), Lanes(1.0));
+    if (any(leaving.too_steep))
+      flattened += count_own(gas, leaving.too_steep & !none_passes, giving.up, giving.low, giving.high);
     Lanes kinetic(0.0);
     for (std::size_t a = 0; a < D; ++a) {
-      const Lanes u = giving.of(s.velocity[a]) + offset_of * slopes[a];
+      const Lanes u = giving.of(s.velocity[a]) + leaving.offset * slopes[a];
       put(Content::momentum + a, mass * u), kinetic += 0.5 * mass * u * u;
     }
-    put(Content::energy, heat * kept + kinetic);
+    put(Content::energy, heat * leaving.heat_kept + kinetic);
   });
+  return flattened;
 }
 
 /// New contents of the window's cells, by whole cell; in cells without gas what they held.
@@ -664,13 +694,9 @@ void remap(Gas& gas, double dt) {
   const Window& w = bodies.window;
   StepFields& s = bodies.fields;
   const auto D = static_cast<std::size_t>(w.dimensions);
-  for (std::size_t a = 0; a < D; ++a) find_passing(gas, dt, a);
+  for (std::size_t a = 0; a < D; ++a) gas.flattened += find_passing(gas, dt, a);
   for_each_eight(w, [&](std::size_t n) {
-    Lanes whole;
-    for (int l = 0; l < 8; ++l) {
-      const std::size_t cell = std::min(n + static_cast<std::size_t>(l), w.first + w.cells - 1);
-      whole.set(l, whole_cell(gas.cells, w.index(cell)[0]).volume);
-    }
+    const Lanes whole = whole_volumes(gas.cells, w, n);
     const Lanes before = at(bodies.space.volume, n) / whole, after = at(bodies.next_space.volume, n) / whole;
     for (std::size_t q = 1; q < s.content.size(); ++q) {
       Lanes change = at(s.change[q], n);
@@ -684,8 +710,92 @@ void remap(Gas& gas, double dt) {
   });
 }
 
-/// Redistributes what small cells hold; returns what has been entrapped in own cells.
-void redistribute_all(Gas& gas, std::vector<double>& entrapped) {
+/// A pair of things that are about to meet, the first pair of all: of two bodies, or of a body and a side of the box.
+struct Meeting {
+  static constexpr int none = std::numeric_limits<int>::max();
+  int code = none;
+  void note(int body, int what) { code = std::min(code, body * 4096 + what); }
+  int body() const { return code / 4096; }
+  int what() const { return code % 4096; }  // another body, or this and the number of a side:
+  static constexpr int first_side = 4000;
+};
+
+/// A body whose face closes in on a wall of the box, until a cell between them has so little gas that it would share it with
+/// its mirror image: half a cell from the wall. One that slides along a wall, or reaches through it, has no such face.
+void note_meeting_with_wall(const Gas& gas, Meeting& meeting) {
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  for (const CutCell& c : bodies.step.cut) {
+    const double size = magnitude(c.wall);
+    const std::int32_t small = bodies.small.number[c.cell];
+    if (c.body < 0 || size == 0.0 || small < 0 || !gas.cells.contains(w.index(c.cell))) continue;
+    const Neighbourhood& hood = bodies.small.small[static_cast<std::size_t>(small)];
+    for (std::size_t side = 0; side < 2 * static_cast<std::size_t>(w.dimensions); ++side) {
+      if (gas.edges[side].kind != EdgeKind::wall) continue;
+      const std::size_t a = side / 2;
+      const double outward = side % 2 == 0 ? -1.0 : 1.0;
+      constexpr double facing = 0.5;  // cosine
+      if (!(outward * c.wall[a] < -facing * size && outward * c.velocity[a] > 0.0)) continue;
+      const bool beyond = std::any_of(hood.members.begin(), hood.members.begin() + hood.count, [&](std::size_t n) {
+        const int at = w.index(n)[a];
+        return side % 2 == 0 ? at < gas.cells.lower[a] : at >= gas.cells.upper[a];
+      });
+      if (beyond) meeting.note(c.body, Meeting::first_side + static_cast<int>(side));
+    }
+  }
+}
+
+/// Two bodies that push into each other: at a node they fill more than there is, and more than they did at the start.
+void note_meeting_of_bodies(const Gas& gas, Meeting& meeting) {
+  const Bodies& bodies = gas.bodies;
+  constexpr double deeper = 0.1;
+  for_each_cell_of(bodies.nodes.touched, [&](const Index& node) {
+    const std::size_t n = bodies.window.at(node);
+    if (shared_fraction(bodies.nodes, n) > bodies.overlap + deeper)
+      meeting.note(std::min(bodies.nodes.body[n], bodies.nodes.other[n]),
+                   std::max(bodies.nodes.body[n], bodies.nodes.other[n]));
+  });
+}
+
+/// Two bodies that have closed a cell, with its gas in it, between them.
+void note_bodies_around(const Bodies& bodies, const Index& cell, Meeting& meeting) {
+  int lowest = Meeting::none, highest = -1;
+  Part around;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const bool used = static_cast<int>(a) < bodies.window.dimensions;
+    around.lower[a] = cell[a] - (used ? 1 : 0), around.upper[a] = cell[a] + (used ? 3 : 1);
+  }
+  for_each_cell_of(around, [&](const Index& node) {
+    const std::size_t n = bodies.window.at(node);
+    constexpr double solid = 0.5;
+    if (bodies.nodes.fraction[n] < solid) return;
+    lowest = std::min<int>(lowest, bodies.nodes.body[n]), highest = std::max<int>(highest, bodies.nodes.body[n]);
+  });
+  if (highest > lowest) meeting.note(lowest, highest);
+}
+
+/// Ends the run on all ranks alike if something meets on one of them. True if it meets because the step is far too long: then
+/// nothing is known.
+bool bodies_meet(const Gas& gas, Meeting meeting, double dt, Domain& domain) {
+  meeting.code = -static_cast<int>(domain.maximum(-static_cast<double>(meeting.code)));
+  if (meeting.code == Meeting::none) return false;
+  constexpr double farthest = 0.5;  // cells
+  if (fastest(gas) * dt > farthest * gas.cells.cell_size) return true;
+  const auto& all = gas.bodies.all;
+  const auto side = static_cast<std::size_t>(meeting.what() - Meeting::first_side);
+  const std::string what = meeting.what() < Meeting::first_side ? "body " + all[static_cast<std::size_t>(meeting.what())].name
+                           : side == 0 && is_round(gas.cells.geometry) && gas.cells.lower[0] == 0
+                               ? "the axis"
+                               : "the wall " + gas.edges[side].name;
+  throw BodiesMeet(
+      fmt::format("body {}: it runs into {} between {:.6g} and {:.6g} s, and the gas between them has nowhere to go; bodies in "
+                  "the gas must "
+                  "not touch what they approach: end the run before that, or let the body stop",
+                  all[static_cast<std::size_t>(meeting.body())].name, what, gas.time, gas.time + dt));
+}
+
+/// Redistributes what small cells hold; adds what has been entrapped in own cells, and by which bodies.
+void redistribute_all(Gas& gas, std::vector<double>& entrapped, Meeting& meeting) {
   Bodies& bodies = gas.bodies;
   const Window& w = bodies.window;
   StepFields& s = bodies.fields;
@@ -710,6 +820,7 @@ void redistribute_all(Gas& gas, std::vector<double>& entrapped) {
       if (hood.count > 1 || bodies.next_space.volume[hood.cell] > 0.0) continue;
       const Index cell = w.index(hood.cell);
       if (!gas.cells.contains(cell) || !gas.cells.find(cell)) continue;
+      if (q == Content::energy) note_bodies_around(bodies, cell, meeting);
       if (q == Content::energy)
         entrapped.back() += s.covered[hood.cell];
       else if (q < Content::momentum + D)
@@ -720,8 +831,8 @@ void redistribute_all(Gas& gas, std::vector<double>& entrapped) {
   }
 }
 
-/// Whether every own cell with gas has mass and more energy than the coldest gas.
-bool all_is_well(const Gas& gas) {
+/// Whether every own cell with gas has mass and more energy than the coldest gas. Marks those that have not.
+bool all_is_well(Gas& gas) {
   const Bodies& bodies = gas.bodies;
   const Window& w = bodies.window;
   const StepFields& s = bodies.fields;
@@ -737,28 +848,31 @@ bool all_is_well(const Gas& gas) {
       if (bodies.next_space.volume[n] == 0.0) continue;
       const double room = whole_cell(gas.cells, index[0]).volume;
       double mass = 0.0, thermal = 0.0, kinetic = 0.0;
+      bool fine = true;
       for (std::size_t r = 0; r < gas.fluids.size(); ++r) {
         const std::size_t first = Content::momentum + D + per_fluid * r;
         const double own = s.content[first][n];
         mass += own;
-        if (!(own >= 0.0)) good[i] = 0;
-        if (gas.fluids.size() > 1 && s.content[first + Content::volume][n] < -1e-14 * room) good[i] = 0;
+        if (!(own >= 0.0)) fine = false;
+        if (gas.fluids.size() > 1 && s.content[first + Content::volume][n] < -1e-14 * room) fine = false;
       }
       for (std::size_t a = 0; a < D; ++a)
         kinetic += 0.5 * s.content[Content::momentum + a][n] * s.content[Content::momentum + a][n];
       thermal = s.content[Content::energy][n] - kinetic / mass;
       if (gas.fluids.size() == 1) thermal -= mass * coldest_energy(gas.fluids[0], Lanes(mass / room))[0];
-      if (!(mass > 0.0) || !(thermal > 0.0)) good[i] = 0;
+      if (fine && mass > 0.0 && thermal > 0.0) continue;
+      gas.marks.cell(block, 0, c) = 1.0, good[i] = 0;
     }
   });
   return std::all_of(good.begin(), good.end(), [](char g) { return g != 0; });
 }
 
-/// Whether no own cell gives more than it has.
-bool nothing_is_overdrawn(const Gas& gas, double dt) {
+/// Whether no own cell gives more than it has. Marks those that do.
+bool nothing_is_overdrawn(Gas& gas, double dt) {
   const Bodies& bodies = gas.bodies;
   const Window& w = bodies.window;
   const StepFields& s = bodies.fields;
+  bool good = true;
   for (const std::int32_t b : gas.cells.mine)
     for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
       const Index index = gas.cells.index(static_cast<std::size_t>(b), c);
@@ -768,10 +882,11 @@ bool nothing_is_overdrawn(const Gas& gas, double dt) {
       double out = 0.0;
       for (std::size_t a = 0; a < static_cast<std::size_t>(w.dimensions); ++a)
         out += std::max(s.flow[a][n + offset(w, a)], 0.0) - std::min(s.flow[a][n], 0.0);
-      constexpr double most = 0.9, least_volume = 0.2;
-      if (!(dt * out <= most * s.volume[n]) || !(s.volume[n] > least_volume * bodies.space.volume[n])) return false;
+      constexpr double most = 0.9;
+      if (dt * out <= most * s.volume[n] && s.volume[n] > least_room * bodies.space.volume[n]) continue;
+      gas.marks.cell(static_cast<std::size_t>(b), 0, c) = 1.0, good = false;
     }
-  return true;
+  return good;
 }
 
 /// Books what passes the sides of the box.
@@ -824,28 +939,6 @@ bool gas_changes_sides(const Gas& gas) {
   return false;
 }
 
-/// Finds where the bodies go, and the cut cells on their way.
-std::vector<MovingBody::State> move_bodies(Gas& gas, double dt) {
-  Bodies& bodies = gas.bodies;
-  std::vector<MovingBody::State> next;
-  bool still = true;
-  for (const MovingBody& body : bodies.all) {
-    next.push_back(moved(body, gas.time, dt));
-    still = still && next.back().displacement == body.state.displacement && next.back().turn == body.state.turn &&
-            next.back().growth == body.state.growth;
-  }
-  if (bodies.window.empty() || (still && bodies.still)) return next;
-  std::vector<BodyPoints> points;
-  for (std::size_t b = 0; b < bodies.all.size(); ++b)
-    points.push_back(points_of(bodies.all[b], gas.cells.geometry, bodies.all[b].state, next[b], dt));
-  put_on_nodes(bodies.window, gas.cells, images_of(gas), points, bodies.nodes);
-  find_open_space(bodies.window, gas.cells, bodies.nodes, bodies.next_space);
-  find_cut_cells(bodies.window, gas.cells, bodies.space, bodies.next_space, bodies.nodes, bodies.step);
-  find_neighbourhoods(bodies.window, gas.cells, bodies.space, bodies.next_space, bodies.step, bodies.small);
-  bodies.still = still;
-  return next;
-}
-
 /// The cells as they are at the end of the step.
 void keep(Gas& gas) {
   const StepFields& s = gas.bodies.fields;
@@ -862,34 +955,70 @@ void keep(Gas& gas) {
 
 }  // namespace
 
-Outcome advance_with_bodies(Gas& gas, double dt, Domain& domain) {
+bool move_bodies(Gas& gas, double dt, Domain& domain) {
+  Bodies& bodies = gas.bodies;
+  bodies.next.clear();
+  bool still = true;
+  for (const MovingBody& body : bodies.all) {
+    bodies.next.push_back(moved(body, gas.time, dt));
+    const MovingBody::State& next = bodies.next.back();
+    still = still && next.displacement == body.state.displacement && next.turn == body.state.turn &&
+            next.growth == body.state.growth;
+  }
+  if (still && bodies.still) return true;
+  Meeting meeting;
+  bool changes_sides = false;
+  if (!bodies.window.empty()) {
+    std::vector<BodyPoints> points;
+    for (std::size_t b = 0; b < bodies.all.size(); ++b)
+      points.push_back(points_of(bodies.all[b], gas.cells.geometry, bodies.all[b].state, bodies.next[b], dt));
+    put_on_nodes(bodies.window, gas.cells, images_of(gas), points, bodies.nodes);
+    find_open_space(bodies.window, gas.cells, bodies.nodes, bodies.next_space);
+    find_cut_cells(bodies.window, gas.cells, bodies.space, bodies.next_space, bodies.nodes, bodies.step);
+    find_neighbourhoods(bodies.window, gas.cells, bodies.space, bodies.next_space, bodies.step, bodies.small);
+    note_meeting_with_wall(gas, meeting);
+    note_meeting_of_bodies(gas, meeting);
+    changes_sides = gas_changes_sides(gas);
+  }
+  bodies.still = still;
+  return !bodies_meet(gas, meeting, dt, domain) && domain.maximum(changes_sides ? 1.0 : 0.0) == 0.0;
+}
+
+bool try_step_with_bodies(Gas& gas, double dt, Domain& domain) {
   Bodies& bodies = gas.bodies;
   const bool here = !bodies.window.empty();
-  std::vector<MovingBody::State> next = move_bodies(gas, dt);
-  make_room(gas, bodies.fields, bodies.window.length);
-  gather(gas, domain);
-  std::vector<Received> received;
-  if (here) {
-    fill_beyond(gas);
-    half_step(gas, dt);
-    find_faces(gas, dt);
-    received = push_cells(gas, dt);
-  }
-  std::vector<Received> sums(bodies.all.size());
-  settle_with_bodies(gas, received, dt, next, sums, domain);
-  if (here && gas.fluids.size() > 1) share_changes(gas);
-  std::vector<double> entrapped(bodies.entrapped.size(), 0.0);
+  timed(gas, Phase::ghosts, [&] {
+    make_room(gas, bodies.fields, bodies.window.length);
+    gather_state(gas, domain);
+    if (here) fill_beyond(gas);
+  });
+  if (here) timed(gas, Phase::half_step, [&] { half_step(gas, dt); });
+  timed(gas, Phase::lagrangian, [&] {
+    std::vector<Received> received;
+    if (here) find_faces(gas, dt), received = push_cells(gas, dt);
+    push_bodies(gas, received, dt, domain);
+    if (here && gas.fluids.size() > 1) share_changes(gas);
+  });
+  bodies.entrapped_now.assign(bodies.entrapped.size(), 0.0);
   bool good = true;
+  Meeting meeting;
   if (here) {
-    find_donors(gas);
-    good = nothing_is_overdrawn(gas, dt) && !gas_changes_sides(gas);
-    remap(gas, dt);
-    redistribute_all(gas, entrapped);
-    good = good && all_is_well(gas);
+    timed(gas, Phase::remap, [&] {
+      find_donors(gas);
+      good = nothing_is_overdrawn(gas, dt);
+      remap(gas, dt);
+    });
+    timed(gas, Phase::bodies, [&] { redistribute_all(gas, bodies.entrapped_now, meeting); });
+    good = timed(gas, Phase::equilibrium, [&] { return all_is_well(gas); }) && good;
   }
-  if (domain.maximum(good ? 0.0 : 1.0) > 0.0) return Outcome::rejected;
+  return !bodies_meet(gas, meeting, dt, domain) && domain.maximum(good ? 0.0 : 1.0) == 0.0;
+}
+
+void settle_with_bodies(Gas& gas, double dt, Domain& domain) {
+  Bodies& bodies = gas.bodies;
+  const bool here = !bodies.window.empty();
   if (here) book_sides(gas, dt), keep(gas);
-  book_step(gas.passages);
+  const std::vector<double>& entrapped = bodies.entrapped_now;
   const bool lost = std::any_of(entrapped.begin(), entrapped.end(), [](double x) { return x != 0.0; });
   if (domain.maximum(lost ? 1.0 : 0.0) > 0.0) {
     const std::vector<double> total = sum_of_ranks(entrapped, entrapped.size(), domain);
@@ -897,17 +1026,14 @@ Outcome advance_with_bodies(Gas& gas, double dt, Domain& domain) {
   }
   for (std::size_t b = 0; b < bodies.all.size(); ++b) {
     MovingBody& body = bodies.all[b];
-    body.state = next[b], body.force = (1.0 / dt) * sums[b].impulse;
-    for (std::size_t a = 0; a < 3; ++a) body.impulse[a].add(sums[b].impulse[a]);
-    body.work.add(sums[b].work);
+    body.state = bodies.next[b], body.force = (1.0 / dt) * bodies.received[b].impulse;
+    for (std::size_t a = 0; a < 3; ++a) body.impulse[a].add(bodies.received[b].impulse[a]);
+    body.work.add(bodies.received[b].work);
   }
   if (here) {
     if (!bodies.still) std::swap(bodies.space, bodies.next_space);
     keep_open_parts(gas);
   }
-  gas.time += dt, ++gas.step;
-  begin(gas, domain);
-  return Outcome::done;
 }
 
 }  // namespace brisance::simulator::gas

@@ -1,5 +1,8 @@
 #include "simulator/gas/classic.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -7,6 +10,7 @@
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/exchange.hpp"
+#include "simulator/gas/transport.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -215,29 +219,32 @@ void advect(const Lattice& lattice, const FaceVelocities& u, std::size_t fluid, 
 
 }  // namespace
 
-std::string classic_limits(const Gas& gas) {
-  std::string reasons;
+std::vector<std::string> classic_limits(const ClassicDemands& demands) {
+  std::vector<std::string> reasons;
   const auto refuse = [&](bool when, std::string_view reason) {
-    if (!when) return;
-    if (!reasons.empty()) reasons += '\n';
-    reasons += reason;
+    if (when) reasons.push_back(fmt::format("ice_classic {}, or use scheme = \"ice\"", reason));
   };
-  refuse(is_round(gas.cells.geometry), "ice_classic has no round geometries; use planar_1d, plane or three_dimensional");
-  refuse(std::any_of(gas.edges.begin(), gas.edges.end(),
-                     [](const Edge& e) { return e.kind != EdgeKind::wall && e.kind != EdgeKind::periodic; }),
-         "ice_classic has walls and periodic sides only; remove the other [[gas.edge]]");
-  refuse(gas.gravity != Vector{}, "ice_classic has no gravity; remove it");
-  refuse(gas.implicit, "ice_classic is explicit; remove implicit");
-  refuse(std::any_of(gas.fluids.begin(), gas.fluids.end(),
-                     [](const Fluid& f) { return f.viscosity > 0.0 || f.bulk_viscosity > 0.0 || f.conductivity > 0.0; }),
-         "ice_classic has no viscosity or conduction; remove them");
+  refuse(demands.round, "has no round geometries; use planar_1d, plane or three_dimensional");
+  refuse(demands.open_sides, "has walls and periodic sides only; remove the other edges");
+  refuse(demands.gravity, "has no gravity; remove it");
+  refuse(demands.face_dissipation, "has no dissipation of faces; remove least_mach");
+  refuse(demands.implicit, "is explicit; remove implicit");
+  refuse(demands.transport, "has no viscosity or conduction; remove them");
+  refuse(demands.reactions, "has no reactions; remove them");
   return reasons;
 }
 
 void open_classic(Gas& gas, const Domain& domain) {
-  const std::string reasons = classic_limits(gas);
   if (domain.size() > 1) throw std::runtime_error("ice_classic runs in one process only");
-  if (!reasons.empty()) throw std::runtime_error(reasons);
+  ClassicDemands demands{.round = is_round(gas.cells.geometry),
+                         .gravity = gas.gravity != Vector{},
+                         .face_dissipation = gas.least_mach != Gas{}.least_mach,
+                         .implicit = gas.implicit,
+                         .transport = has_transport(gas.fluids),
+                         .reactions = !gas.burns.empty()};
+  for (const Edge& edge : gas.edges) demands.edge(edge.kind);
+  if (const std::vector<std::string> reasons = classic_limits(demands); !reasons.empty())
+    throw std::runtime_error(fmt::format("{}", fmt::join(reasons, "\n")));
   const Lattice lattice(gas);
   const std::size_t fluids = gas.fluids.size(), n = lattice.count;
   ClassicState& s = *gas.classic;

@@ -7,12 +7,21 @@
 // Limits: straight geometries, walls and periodic sides, one process, no gravity, viscosity or conduction. What sweeps out of a
 // cell is taken along the axis of the face, without the offset across it.
 
+#include <string>
+#include <vector>
+
 #include "simulator/gas/gas.hpp"
 
 namespace brisance::simulator::gas {
 
-/// Why a gas cannot be advanced by the classic scheme, one reason a line; empty if it can.
-std::string classic_limits(const Gas& gas);
+/// What is asked for that the classic scheme does not have.
+struct ClassicDemands {
+  bool round = false, open_sides = false, gravity = false, face_dissipation = false, implicit = false, transport = false,
+       reactions = false;
+  void edge(EdgeKind kind) { open_sides = open_sides || (kind != EdgeKind::wall && kind != EdgeKind::periodic); }
+};
+/// Why the classic scheme cannot do it, each with what to do; empty if it can.
+std::vector<std::string> classic_limits(const ClassicDemands& demands);
 /// Takes the state of the classic scheme from what the gas is filled with. Throws std::runtime_error with classic_limits.
 void open_classic(Gas& gas, const Domain& domain);
 /// Contents and primitives as the classic state has them: for output and books.

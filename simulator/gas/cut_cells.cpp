@@ -197,11 +197,13 @@ void put_on_nodes(const Window& w, const Cells& cells, const BoxImages& images, 
   if (nodes.fraction.size() != w.length) {
     nodes.fraction.assign(w.length, 0.0), nodes.share.assign(w.length, 0.0), nodes.body.assign(w.length, -1);
     for (std::size_t a = 0; a < D; ++a) nodes.momentum[a].assign(w.length, 0.0);
+    if (bodies.size() > 1) nodes.second_share.assign(w.length, 0.0), nodes.other.assign(w.length, -1);
     nodes.touched = {};
   }
   for_each_cell_of(nodes.touched, [&](const Index& node) {
     const std::size_t n = w.at(node);
     nodes.fraction[n] = nodes.share[n] = 0.0, nodes.body[n] = -1;
+    if (bodies.size() > 1) nodes.second_share[n] = 0.0, nodes.other[n] = -1;
     for (std::size_t a = 0; a < D; ++a) nodes.momentum[a][n] = 0.0;
   });
   nodes.touched = {};
@@ -247,7 +249,12 @@ void put_on_nodes(const Window& w, const Cells& cells, const BoxImages& images, 
     for_each_cell_of(touched, [&](const Index& node) {
       const std::size_t n = w.at(node);
       const double share = own.empty() ? nodes.fraction[n] : own[n];
-      if (share > nodes.share[n]) nodes.share[n] = share, nodes.body[n] = static_cast<std::int16_t>(b);
+      if (share > nodes.share[n]) {
+        if (!own.empty()) nodes.second_share[n] = nodes.share[n], nodes.other[n] = nodes.body[n];
+        nodes.share[n] = share, nodes.body[n] = static_cast<std::int16_t>(b);
+      } else if (share > 0.0 && share > nodes.second_share[n]) {
+        nodes.second_share[n] = share, nodes.other[n] = static_cast<std::int16_t>(b);
+      }
     });
     nodes.touched = united(nodes.touched, touched);
   }

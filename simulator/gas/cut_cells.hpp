@@ -71,6 +71,8 @@ struct BodyNodes {
   std::array<std::vector<double>, 3> momentum;  // fraction times velocity, m/s
   std::vector<double> share;                    // the largest fraction of one body
   std::vector<std::int16_t> body;               // whose it is; -1: none
+  std::vector<double> second_share;             // the largest of another body, and whose; of several bodies
+  std::vector<std::int16_t> other;
   Part touched;
 };
 /// Which sides of the box mirror what is near them, and along which axes it repeats itself: side by side as Gas::edges.
@@ -78,6 +80,11 @@ struct BoxImages {
   std::array<bool, 6> mirror{};
   std::array<bool, 3> repeat{};
 };
+/// Solid fraction of a node that two bodies share; 0 of others.
+inline double shared_fraction(const BodyNodes& nodes, std::size_t n) {
+  constexpr double least_share = 0.2;  // of the second: the smear of a neighbour is not its body
+  return !nodes.second_share.empty() && nodes.second_share[n] > least_share ? nodes.fraction[n] : 0.0;
+}
 void put_on_nodes(const Window& window, const Cells& cells, const BoxImages& images, std::span<const BodyPoints> bodies,
                   BodyNodes& nodes);
 /// The gas around the contour where the depth below the surface is zero.

@@ -1,7 +1,6 @@
 #include "simulator/gas/gas.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <stdexcept>
 
@@ -11,25 +10,16 @@
 #include "simulator/gas/implicit.hpp"
 #include "simulator/gas/lagrangian.hpp"
 #include "simulator/gas/passages.hpp"
+#include "simulator/gas/range_watch.hpp"
 #include "simulator/gas/reaction.hpp"
 #include "simulator/gas/remap.hpp"
 #include "simulator/gas/sums.hpp"
+#include "simulator/gas/timed.hpp"
 #include "simulator/gas/transport.hpp"
 #include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
-
-/// Does a part of the step and notes how long it takes.
-template <class F>
-auto timed(Gas& gas, Phase phase, F&& f) {
-  const struct Watch {
-    double& seconds;
-    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-    ~Watch() { seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
-  } watch{gas.seconds[static_cast<std::size_t>(phase)]};
-  return f();
-}
 
 /// The room of a cell is what it was before the step, to the last bit.
 void settle(Gas& gas) {
@@ -65,14 +55,14 @@ std::int64_t forget_plain_cells(Gas& gas) {
 /// The step as it is in `moved`, from what is in `content`; false if a cell does not bear it. Such cells are marked then.
 bool try_step(Gas& gas, double dt, Domain& domain) {
   if (gas.implicit) {
-    if (!timed(gas, Phase::half_step, [&] { return solve_pressure(gas, dt, domain); })) return false;
+    if (!timed(gas, Phase::pressure_solve, [&] { return solve_pressure(gas, dt, domain); })) return false;
   } else {
     timed(gas, Phase::half_step, [&] { advance_half_step(gas, dt); });
   }
   timed(gas, Phase::ghosts, [&] { share_half_step(gas, dt, domain); });
   const auto all_bear = [&](bool borne) { return domain.maximum(borne ? 0.0 : 1.0) == 0.0; };
   if (!all_bear(timed(gas, Phase::lagrangian, [&] { return lagrangian_phase(gas, dt); }))) return false;
-  timed(gas, Phase::lagrangian, [&] { apply_transport(gas, dt); });
+  timed(gas, Phase::transport, [&] { apply_transport(gas, dt); });
   timed(gas, Phase::reaction, [&] { react(gas, dt, domain); });
   // The order of the axes turns around with every step, so that none is always first.
   const int D = gas.dimensions();
@@ -132,14 +122,15 @@ void fill_in_portions(Gas& gas, const PortionsFunction& portions, Domain& domain
   if (gas.classic) open_classic(gas, domain);
   begin(gas, domain);
   gas.initial = totals(gas, domain);
+  watch_ranges(gas);
 }
 
 void begin(Gas& gas, Domain& domain) {
-  if (gas.classic) return show_classic(gas);
+  if (gas.classic) return timed(gas, Phase::classic, [&] { show_classic(gas); });
   timed(gas, Phase::equilibrium, [&] { find_equilibrium(gas); });
   gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
   timed(gas, Phase::ghosts, [&] { share_primitives(gas, gas.time, domain); });
-  timed(gas, Phase::half_step, [&] { prepare_transport(gas, domain); });
+  timed(gas, Phase::transport, [&] { prepare_transport(gas, domain); });
 }
 
 double largest_step(const Gas& gas, double courant) {
@@ -153,20 +144,23 @@ double largest_step(const Gas& gas, double courant) {
                    farthest / std::max(wall, least)});
 }
 
-Outcome advance(Gas& gas, double dt, Domain& domain) {
+namespace {
+
+Outcome advance_fluids(Gas& gas, double dt, Domain& domain) {
   clear_step(gas.passages);
-  if (!gas.bodies.empty()) return advance_with_bodies(gas, dt, domain);
   if (gas.classic) {
-    if (advance_classic(gas, dt) == Outcome::rejected) return Outcome::rejected;
+    if (timed(gas, Phase::classic, [&] { return advance_classic(gas, dt); }) == Outcome::rejected) return Outcome::rejected;
     book_step(gas.passages);
     gas.time += dt, ++gas.step;
     begin(gas, domain);
     return Outcome::done;
   }
+  const bool with_bodies = !gas.bodies.empty();
+  if (with_bodies && !timed(gas, Phase::bodies, [&] { return move_bodies(gas, dt, domain); })) return Outcome::rejected;
   const std::int64_t flattened = gas.flattened, capped = gas.capped;
   gas.careful = false;
   const int most_attempts = gas.implicit ? 1 : 3;  // the faces of the solve know no slopes to do without
-  for (int attempt = 1; !try_step(gas, dt, domain); ++attempt) {
+  for (int attempt = 1; !(with_bodies ? try_step_with_bodies(gas, dt, domain) : try_step(gas, dt, domain)); ++attempt) {
     gas.flattened = flattened, gas.capped = capped;
     clear_step(gas.passages);
     make_marked_cells_plain(gas);
@@ -178,12 +172,20 @@ Outcome advance(Gas& gas, double dt, Domain& domain) {
   }
   if (gas.careful) gas.plain += forget_plain_cells(gas);
   timed(gas, Phase::ghosts, [&] {
-    settle(gas);
+    with_bodies ? settle_with_bodies(gas, dt, domain) : settle(gas);
     book_step(gas.passages);
   });
   gas.time += dt, ++gas.step;
   begin(gas, domain);
   return Outcome::done;
+}
+
+}  // namespace
+
+Outcome advance(Gas& gas, double dt, Domain& domain) {
+  const Outcome outcome = advance_fluids(gas, dt, domain);
+  if (outcome == Outcome::done) timed(gas, Phase::ghosts, [&] { watch_ranges(gas); });
+  return outcome;
 }
 
 Totals totals(const Gas& gas, Domain& domain) {
@@ -268,7 +270,12 @@ std::vector<Totals> burned(const Gas& gas, Domain& domain) {
 }
 
 std::size_t Gas::bytes() const {
-  std::size_t sum = swept.capacity() * sizeof(Lanes) + face_laws.capacity() * sizeof(FaceLaw);
+  std::size_t sum = swept.capacity() * sizeof(Lanes) + face_laws.capacity() * sizeof(FaceLaw) + bytes_of(bodies);
+  if (classic) {
+    for (const std::vector<double>* values : {&classic->mass, &classic->volume, &classic->internal})
+      sum += values->capacity() * sizeof(double);
+    sum += classic->momentum.capacity() * sizeof(Vector);
+  }
   for (const CellSet* set : {&content, &moved, &next, &marks, &primitive, &half_step, &transport, &unknown, &burning_area,
                              &filtered, &filtering, &released})
     sum += set->bytes();
@@ -306,6 +313,9 @@ std::vector<double> numbers_of(const Gas& gas) {
     keep(p.energy);
   }
   numbers.push_back(static_cast<double>(gas.capped));
+  for (const OutsideRange& o : gas.outside)
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(o.cell_steps), o.excess, o.density, o.time, o.place[0], o.place[1], o.place[2]});
   const std::vector<double> bodies = numbers_of(gas.bodies);
   numbers.insert(numbers.end(), bodies.begin(), bodies.end());
   return numbers;
@@ -343,6 +353,10 @@ void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
     take(p.energy);
   }
   gas.capped = static_cast<std::int64_t>(*next++);
+  for (OutsideRange& o : gas.outside) {
+    o.cell_steps = static_cast<std::int64_t>(*next++);
+    for (double* value : {&o.excess, &o.density, &o.time, &o.place[0], &o.place[1], &o.place[2]}) *value = *next++;
+  }
   restore(gas.bodies, next);
   place_bodies(gas, domain);
   share_primitives(gas, gas.time, domain);

@@ -135,10 +135,32 @@ struct ClassicState {
   std::vector<Vector> momentum;                // kg m/s
 };
 
+/// When a fluid was denser or thinner than its equation of state declares: see range_watch.hpp.
+struct OutsideRange {
+  std::int64_t cell_steps = 0;
+  double excess = 1.0;   // of the worst: density over the highest, or the lowest over it
+  double density = 0.0;  // kg/m^3
+  double time = 0.0;     // s
+  Vector place{};        // m, middle of its cell
+};
+
 /// Where the time of a step goes.
-enum class Phase { half_step, lagrangian, reaction, remap, equilibrium, ghosts, count };
+enum class Phase {
+  half_step,
+  pressure_solve,
+  lagrangian,
+  transport,
+  reaction,
+  remap,
+  bodies,
+  classic,
+  equilibrium,
+  ghosts,
+  count
+};
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::count)> phase_names{
-    "half step", "Lagrangian phase", "reaction", "remap", "equilibrium", "ghosts, halo, books"};
+    "half step", "pressure solve", "Lagrangian phase", "viscosity, heat", "reaction",
+    "remap",     "bodies, cuts",   "classic scheme",   "equilibrium",     "ghosts, halo, books"};
 
 /// What a reaction has burned within one block is kept as a passage, too: of a side with this number and those after it.
 inline constexpr int first_burn_side = 100;
@@ -183,6 +205,7 @@ struct Gas {
   std::int64_t plain = 0;      // how often cells of this process did
   Bodies bodies;               // solids in the gas
   std::int64_t capped = 0;     // cells times steps in which less has burned than the law wanted
+  std::vector<OutsideRange> outside;  // of each fluid, in this process
 
   bool empty() const { return fluids.empty(); }
   int dimensions() const { return cells.dimensions; }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "simulator/gas/acoustic.hpp"
+#include "simulator/gas/donor.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/implicit.hpp"
 #include "simulator/gas/passages.hpp"
@@ -164,8 +165,6 @@ bool move(Gas& gas, std::size_t block, double dt) {
     if (fluids == 1) {
       thermal = internal - mass * coldest_energy(gas.fluids[0], Lanes(mass / moved));
     } else {
-      // A little gas in a liquid would take all of the change: more than it has. Beyond its half or double the rest goes to the
-      // fluid with most volume; the next equilibrium finds what is right.
       Lanes rest(1.0), largest(0.0);
       const auto of = [&](int r, int quantity) -> Lanes& { return at(gas.moved, Content::fluids(D) + 3 * r + quantity); };
       const Lanes growth = moved - room, work = internal - internal_before;
@@ -176,8 +175,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
         const LanesMask most_of_it = (volume == largest) & !given;
         given |= most_of_it;
         const Lanes wanted = gas.primitive.at(block, Primitive::count(D) + r)[k];
-        const Lanes most = select(growth < 0.0, Lanes(0.5), Lanes(1.0)) * volume / max(abs(growth), Lanes(1e-300));
-        const Lanes share = select(most_of_it, Lanes(0.0), min(wanted, max(most, Lanes(0.0))));
+        const Lanes share = select(most_of_it, Lanes(0.0), limited_share(wanted, growth, volume));
         rest -= share;
         volume += share * growth, of(r, Content::internal) += share * work;
       }
@@ -194,7 +192,6 @@ bool move(Gas& gas, std::size_t block, double dt) {
         thermal += energy - own_mass * coldest_energy(fluid, density);
       }
     }
-    constexpr double least_room = 0.2;
     const LanesMask bears = ((moved > least_room * room) & (thermal > 0.0)) | !active;
     at(gas.marks, 0) = select(bears, at(gas.marks, 0), Lanes(1.0));
     good &= bears;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "simulator/gas/donor.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/limiter.hpp"
 #include "simulator/gas/passages.hpp"
@@ -36,9 +37,7 @@ struct Giving {
     return of(field) + select(smooth, (0.5 * order) * (1.0 - own_part) * difference(field, own_part), Lanes(0.0));
   }
   Lanes difference(const Pencil& field, const Lanes& what_leaves) const {
-    const Lanes ahead = select(up, field[high] - field[low], field[low] - field[high]);
-    const Lanes behind = select(up, field[low] - field[low - 1], field[high] - field[high + 1]);
-    return upwind_difference(of(field), behind, ahead, what_leaves);
+    return difference_across_donor(up, field[low - 1], field[low], field[high], field[high + 1], what_leaves);
   }
 };
 
@@ -64,9 +63,6 @@ struct Carried {
   Lanes heat_kept;  // part of the heat
 };
 /// Momentum that goes with a mass (positive along the axis) into dp.
-///
-/// The parts of a cell move with different velocities, and their kinetic energies together exceed that of the whole. The heat
-/// of both parts pays for it. Where that would be more than half of it the slopes are taken back.
 template <int D>
 Carried carry_momentum(const Giving& giving, const std::array<Donor<D>, reach>& donors, const Lanes& mass, std::size_t face,
                        std::array<Lanes, line_faces> (&dp)[D], std::int64_t& flattened) {
@@ -78,18 +74,13 @@ Carried carry_momentum(const Giving& giving, const std::array<Donor<D>, reach>& 
     slopes[a] = of(low.velocity_slope[a], high.velocity_slope[a]);
     steepness += slopes[a] * slopes[a];
   }
-  constexpr double most = 0.5;
-  const Lanes cost = 0.125 * part * (1.0 - part) * of(low.density, high.density) * steepness;
-  const Lanes heat = max(of(low.energy, high.energy), Lanes(0.0));
-  const LanesMask too_steep = cost > most * heat;
-  Lanes offset = giving.order * of(Lanes(0.5 * (1.0 - part)), Lanes(-0.5 * (1.0 - part)));
-  if (any(too_steep)) {
-    offset = select(too_steep, offset * sqrt(most * heat / max(cost, Lanes(1e-300))), offset);
-    for (int l = 0; l < 8; ++l) flattened += too_steep[l] ? 1 : 0;
-  }
-  Carried carried{Lanes(0.0), 1.0 - min(cost, Lanes(most * heat)) / max(heat, Lanes(1e-300))};
+  const Leaving leaving = leaving_with_momentum(giving.up, part, of(low.density, high.density), steepness,
+                                                of(low.energy, high.energy), giving.order);
+  if (any(leaving.too_steep))
+    for (int l = 0; l < 8; ++l) flattened += leaving.too_steep[l] ? 1 : 0;
+  Carried carried{Lanes(0.0), leaving.heat_kept};
   for (int a = 0; a < D; ++a) {
-    const Lanes u = of(low.velocity[a], high.velocity[a]) + offset * slopes[a];
+    const Lanes u = of(low.velocity[a], high.velocity[a]) + leaving.offset * slopes[a];
     dp[a][face] = mass * u, carried.kinetic += 0.5 * mass * u * u;
   }
   return carried;

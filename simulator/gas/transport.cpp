@@ -274,12 +274,6 @@ void apply(Gas& gas, std::size_t block, double dt) {
 
 }  // namespace
 
-bool has_transport(const Gas& gas) {
-  return std::any_of(gas.fluids.begin(), gas.fluids.end(), [](const Fluid& fluid) {
-    return fluid.viscosity > 0.0 || fluid.bulk_viscosity > 0.0 || fluid.conductivity > 0.0;
-  });
-}
-
 void prepare_transport(Gas& gas, Domain& domain) {
   if (!has_transport(gas)) return;
   if (gas.transport.quantities() == 0) {

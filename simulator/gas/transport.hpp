@@ -8,12 +8,22 @@
 // Both act through faces, so momentum and total energy are kept; about an axis or a centre the hoop stress pushes as well.
 // (Landau & Lifshitz, Fluid Mechanics, 2nd ed. 1987, sections 15, 49.)
 
+#include <algorithm>
+#include <vector>
+
 #include "simulator/gas/gas.hpp"
 
 namespace brisance::simulator::gas {
 
-/// Whether any fluid has a viscosity or conducts.
-bool has_transport(const Gas& gas);
+/// Whether any of these fluids, or of their configurations, has a viscosity or conducts.
+template <class AnyFluid>
+bool has_transport(const std::vector<AnyFluid>& fluids) {
+  return std::any_of(fluids.begin(), fluids.end(),
+                     [](const AnyFluid& f) { return f.viscosity > 0.0 || f.bulk_viscosity > 0.0 || f.conductivity > 0.0; });
+}
+inline bool has_transport(const Gas& gas) {
+  return has_transport(gas.fluids);
+}
 /// Coefficients, temperatures and velocity gradients from the state at the start of a step, and the largest rate of diffusion.
 /// Nothing without transport.
 void prepare_transport(Gas& gas, Domain& domain);

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "models/programs/files.hpp"
+#include "simulator/gas/sums.hpp"
 #include "simulator/output/extensive.hpp"
 #include "simulator/solid/motion.hpp"
 #include "simulator/solid/stress.hpp"
@@ -48,7 +49,11 @@ GasBooks gas_books_of(const Simulation& s) {
   for (const gas::Fluid& fluid : s.gas.fluids) books.fluids.push_back(fluid.name);
   books.state = scaled(gas::totals(s.gas, *s.domain)), books.initial = scaled(s.gas.initial);
   books.gravity = s.gas.gravity != Vector{};
-  books.plain = s.gas.plain, books.flattened = s.gas.flattened;
+  const std::vector<double> counts = gas::sum_of_ranks(
+      {static_cast<double>(s.gas.plain), static_cast<double>(s.gas.flattened), static_cast<double>(s.gas.capped)}, 3,
+      *s.domain);
+  books.plain = static_cast<std::int64_t>(counts[0]), books.flattened = static_cast<std::int64_t>(counts[1]);
+  books.capped = static_cast<std::int64_t>(counts[2]);
   const std::vector<gas::Totals> passed = gas::passed(s.gas, *s.domain);
   const std::size_t edges = s.gas.edges.size();
   const std::vector<gas::MovingBody>& bodies = s.gas.bodies.all;
@@ -58,7 +63,7 @@ GasBooks gas_books_of(const Simulation& s) {
                                : e - edges - 1 < bodies.size() ? bodies[e - edges - 1].name
                                                                : "entrapped",
                                scaled(passed[e]));
-  books.capped = s.gas.capped;
+  books.outside = gas::range_reports(s.gas, *s.domain);
   const std::vector<gas::Totals> burned = gas::burned(s.gas, *s.domain);
   for (std::size_t n = 0; n < burned.size(); ++n) {
     const gas::Burn& burn = s.gas.burns[n];

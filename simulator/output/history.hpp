@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/gas/range_watch.hpp"
 #include "simulator/output/gauges.hpp"
 #include "simulator/simulation.hpp"
 
@@ -39,10 +40,11 @@ struct GasBooks {
   gas::Totals state, initial;
   std::vector<std::pair<std::string, gas::Totals>> entries;
   bool gravity = false;                   // acts
-  std::int64_t plain = 0, flattened = 0;  // as in Gas, of this process
+  std::int64_t plain = 0, flattened = 0;  // as in Gas, of all processes
   std::vector<ReactionBook> reactions;
   std::int64_t capped = 0;  // times that a cell wanted to burn more in a step than it may
   std::vector<GasBodyBooks> bodies;
+  std::vector<gas::RangeReport> outside;  // fluids beyond what their equations of state declare
 
   /// What the gas holds now that it neither held at the start nor received, nor made by reaction.
   gas::Totals residual() const;

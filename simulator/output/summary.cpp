@@ -37,6 +37,8 @@ std::string gas_in_words(const Books& all) {
   if (books.plain + books.flattened > 0)
     text += fmt::format("  for the sake of positive energies {} cell-steps were first order, {} slopes flatter\n", books.plain,
                         books.flattened);
+  for (const gas::RangeReport& report : books.outside)
+    text += fmt::format("  warning: {}\n", in_words(report, number_of_dimensions(all.geometry)));
   if (!books.bodies.empty())
     text += fmt::format("  {:24} {:>14} {:>14} {:>14}\n", "body", "force [" + unit(Extensive::force, all) + "]",
                         "work [" + unit(Extensive::energy, all) + "]", "moved [m]");
@@ -44,6 +46,20 @@ std::string gas_in_words(const Books& all) {
     text += fmt::format("  {:24} {:14.6g} {:14.6g} {:14.6g}\n", body.name, magnitude(body.force), body.work,
                         magnitude(body.displacement));
   return text;
+}
+
+/// Where a fluid was farthest outside of the densities that its equation of state declares.
+Json json_of(const gas::RangeReport& report) {
+  const gas::OutsideRange& o = report.outside;
+  Json place = Json::object();
+  for (std::size_t a = 0; a < 3; ++a) place.set(std::string(1, "xyz"[a]), o.place[a]);
+  const bool above = o.density > report.range.highest;
+  return Json::object()
+      .set("cell_steps", o.cell_steps)
+      .set("density", o.density)
+      .set(above ? "highest" : "lowest", above ? report.range.highest : report.range.lowest)
+      .set("time", o.time)
+      .set("place", place);
 }
 
 }  // namespace
@@ -77,15 +93,19 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
       .set("gauges", gauges)
       .set("energy", energy)
       .set("units", units);
-  if (s.books.gas) all.set("first_order_cell_steps", s.books.gas->plain).set("flattened_slopes", s.books.gas->flattened);
+  if (s.books.gas) {
+    all.set("first_order_cell_steps", s.books.gas->plain).set("flattened_slopes", s.books.gas->flattened);
+    Json outside = Json::object();
+    for (const gas::RangeReport& report : s.books.gas->outside) outside.set(report.fluid, json_of(report));
+    all.set("outside_declared_densities", outside);
+  }
   all.set("wall_time", s.wall_time).set(points + "_steps_per_second", s.particle_steps_per_second).set("threads", s.threads);
   replace_file_by_text(path, all.set("versions", versions).text());
 }
 
 std::string in_words(const Summary& s) {
-  std::string text = fmt::format("{}: {}{}{}\n  time {:.6g} s, {} steps, {} {}, {:.2f} s on the clock\n", s.title, s.ending,
-                                 s.message.empty() ? "" : ": ", s.message, s.time, s.steps, s.particles,
-                                 s.books.gas ? "cells" : "particles", s.wall_time);
+  std::string text = fmt::format("{}: {}\n  time {:.6g} s, {} steps, {} {}, {:.2f} s on the clock\n", s.title, s.ending, s.time,
+                                 s.steps, s.particles, s.books.gas ? "cells" : "particles", s.wall_time);
   if (!s.measures.empty())
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", "measure", "computed", "measured", "deviation");
   for (const MeasuredValue& m : s.measures) {

@@ -24,7 +24,7 @@ struct Summary {
 };
 
 void write_summary(const Summary& summary, const std::filesystem::path& path);
-/// A table of the measures and the energies.
+/// A table of the measures and the energies; without the message.
 std::string in_words(const Summary& summary);
 
 }  // namespace brisance::simulator

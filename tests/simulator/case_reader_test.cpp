@@ -750,19 +750,18 @@ TEST(CaseReader, EveryTaylorCaseOfTheProjectIsReadAndMeetsItsExperiment) {
 }
 
 TEST(Keys, DescribesByPathAndByName) {
-  std::string suggestion;
-  const auto one = describe_key("boundary.friction", suggestion);
+  const auto one = find_keys(all_keys(), "boundary.friction");
   ASSERT_EQ(one.size(), 1u);
   EXPECT_EQ(one[0].meaning, "Coulomb's coefficient, of kind rigid_wall");
   EXPECT_EQ(one[0].default_value, "0");
-  const auto by_name = describe_key("cell_size", suggestion);
+  const auto by_name = find_keys(all_keys(), "cell_size");
   ASSERT_EQ(by_name.size(), 1u);
   EXPECT_EQ(by_name[0].default_value, "required");
   EXPECT_EQ(by_name[0].values, "a number in m or a text such as \"25.4 mm\", > 0");
-  EXPECT_EQ(describe_key("gates", suggestion).size(), 4u);  // the table and its three keys
-  EXPECT_EQ(describe_key("friction", suggestion).size(), 1u);
-  EXPECT_TRUE(describe_key("frictoin", suggestion).empty());
-  EXPECT_EQ(suggestion, "; did you mean \"friction\"?");
+  EXPECT_EQ(find_keys(all_keys(), "gates").size(), 4u);  // the table and its three keys
+  EXPECT_EQ(find_keys(all_keys(), "friction").size(), 1u);
+  EXPECT_TRUE(find_keys(all_keys(), "frictoin").empty());
+  EXPECT_EQ(did_you_mean("frictoin", names_of(all_keys())), "; did you mean \"friction\"?");
 }
 
 }  // namespace

@@ -167,5 +167,31 @@ TEST(ListCommand, NamesMaterialsAndMeasures) {
     EXPECT_TRUE(contains(a.out, name)) << name;
 }
 
+TEST(ListCommand, NamesWhatGasMayHaveAndTheCases) {
+  const Answer a = call({"list"});
+  for (const char* name : {"non_reflecting", "high_y", "sound_speed", "fraction_FLUID", "jwl_plus_plus", "ice_classic"})
+    EXPECT_TRUE(contains(a.out, name)) << name;
+  const Answer cases = call({"list", "cases"});
+  EXPECT_EQ(cases.code, done) << cases.err;
+  EXPECT_TRUE(contains(cases.out, "sod.toml\n  Shock tube of Sod")) << cases.out;
+  EXPECT_FALSE(contains(cases.out, "point_cycle.toml")) << "of the point driver";
+  EXPECT_EQ(call({"list", "case"}).code, bad_input);
+}
+
+TEST(DescribeCommand, ExplainsFieldsOfGasAndLawsOfReactions) {
+  const std::string fields = call({"describe", "figure.fields"}).out, colours = call({"describe", "figure_field"}).out;
+  for (const std::string& text : {fields, colours})
+    EXPECT_TRUE(contains(text, "of gas density, pressure, velocity") && contains(text, "von_mises_stress")) << text;
+  EXPECT_FALSE(contains(fields, "position")) << "a position cannot be drawn";
+  EXPECT_TRUE(contains(call({"describe", "sound_speed"}).out, "gauge.fields"));
+  EXPECT_TRUE(contains(call({"describe", "no_slip"}).out, "a wall that viscous fluids stick to"));
+  const Answer burn = call({"describe", "jwl_plus_plus"});
+  EXPECT_EQ(burn.code, done) << burn.err;
+  EXPECT_TRUE(contains(burn.out, "reaction/jwl_plus_plus") && contains(burn.out, "parameter")) << burn.out;
+  const std::string both = call({"describe", "reaction"}).out;
+  EXPECT_TRUE(contains(both, "gas.reaction\n") && contains(both, "reaction/program_burn")) << both;
+  EXPECT_TRUE(contains(call({"describe", "jwl_plus_plu"}).err, "did you mean \"jwl_plus_plus\"?"));
+}
+
 }  // namespace
 }  // namespace brisance::simulator

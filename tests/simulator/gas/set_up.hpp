@@ -107,7 +107,7 @@ inline double fraction(const Gas& gas, const Cell& cell, int fluid) {
 /// The cells along a line, in order.
 inline std::vector<GasState> profile(const Gas& gas) {
   std::vector<GasState> result(static_cast<std::size_t>(gas.cells.count()));
-  for_each_cell(gas, [&](const Cell& c) {
+  set_up::for_each_cell(gas, [&](const Cell& c) {
     result[static_cast<std::size_t>(c.index[0] - gas.cells.lower[0])] = {c.density, c.velocity[0], c.pressure};
   });
   return result;
@@ -118,7 +118,7 @@ inline std::vector<GasState> profile(const Gas& gas) {
 inline GasState mean_errors(const Gas& gas, const std::function<GasState(double, double)>& average) {
   GasState sum{};
   const double h = gas.cells.cell_size, part = 1.0 / static_cast<double>(gas.cells.count());
-  for_each_cell(gas, [&](const Cell& c) {
+  set_up::for_each_cell(gas, [&](const Cell& c) {
     const GasState exact = average(c.index[0] * h, (c.index[0] + 1) * h);
     sum.density += part * std::abs(c.density - exact.density);
     sum.velocity += part * std::abs(c.velocity[0] - exact.velocity);

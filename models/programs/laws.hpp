@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace brisance::driver {
+namespace brisance {
 
 struct ParameterRow {
   std::string name, unit, range, default_value, meaning;
@@ -28,4 +28,4 @@ std::string list_laws();
 /// `suggestion` ends the error message.
 std::optional<std::string> describe_laws(std::string_view name, std::string& suggestion);
 
-}  // namespace brisance::driver
+}  // namespace brisance

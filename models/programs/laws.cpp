@@ -1,4 +1,4 @@
-#include "driver/laws.hpp"
+#include "models/programs/laws.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "models/input/units.hpp"
 #include "models/material.hpp"
 
-namespace brisance::driver {
+namespace brisance {
 namespace {
 
 template <class T>
@@ -158,4 +158,4 @@ std::optional<std::string> describe_laws(std::string_view name, std::string& sug
   return std::nullopt;
 }
 
-}  // namespace brisance::driver
+}  // namespace brisance

@@ -1,0 +1,48 @@
+#pragma once
+// What leaves a cell through a face, and how its fluids share a change of volume: the formulas that the steps with and without
+// bodies have in common (remap.cpp, lagrangian.cpp, bodies_step.cpp).
+
+#include "simulator/gas/limiter.hpp"
+
+namespace brisance::simulator::gas {
+
+/// Of its volume a cell keeps more than this part in the Lagrangian phase, or the step is too long for it.
+inline constexpr double least_room = 0.2;
+
+/// Difference across the donor of a face, of the values in the two cells on either side of it (before, low, high, after); `up`:
+/// the low one gives. See upwind_difference.
+inline Lanes difference_across_donor(const LanesMask& up, const Lanes& before, const Lanes& low, const Lanes& high,
+                                     const Lanes& after, const Lanes& part) {
+  const Lanes ahead = select(up, high - low, low - high);
+  const Lanes behind = select(up, low - before, high - after);
+  return upwind_difference(select(up, low, high), behind, ahead, part);
+}
+
+/// How a part of a cell's mass leaves with its momentum.
+struct Leaving {
+  Lanes offset;         // cells from the middle, along the axis: where its velocity is taken
+  Lanes heat_kept;      // part of the heat
+  LanesMask too_steep;  // the slopes have been taken back
+};
+/// The parts of a cell move with different velocities, and their kinetic energies together exceed that of the whole. The heat
+/// of both parts pays for it. Where that would be more than half of it the slopes are taken back. `steepness`: sum of the
+/// squares of the velocity's slopes; `heat`: internal energy, J/m^3; `order`: 0 without slopes, 1 with them.
+inline Leaving leaving_with_momentum(const LanesMask& up, const Lanes& part, const Lanes& density, const Lanes& steepness,
+                                     const Lanes& heat, const Lanes& order) {
+  constexpr double most = 0.5;
+  const Lanes cost = 0.125 * part * (1.0 - part) * density * steepness, held = max(heat, Lanes(0.0));
+  const LanesMask too_steep = cost > most * held;
+  Lanes offset = order * select(up, Lanes(0.5 * (1.0 - part)), Lanes(-0.5 * (1.0 - part)));
+  if (any(too_steep)) offset = select(too_steep, offset * sqrt(most * held / max(cost, Lanes(1e-300))), offset);
+  return {offset, 1.0 - min(cost, Lanes(most * held)) / max(held, Lanes(1e-300)), too_steep};
+}
+
+/// The part of its cell's growth in volume that a fluid takes, beside that with most volume. A little gas in a liquid would
+/// take all of it, more than it has: it takes no more than its half or double, and the rest goes to the fluid with most volume;
+/// the next equilibrium finds what is right.
+inline Lanes limited_share(const Lanes& wanted, const Lanes& growth, const Lanes& volume) {
+  const Lanes most = select(growth < 0.0, Lanes(0.5), Lanes(1.0)) * volume / max(abs(growth), Lanes(1e-300));
+  return min(wanted, max(most, Lanes(0.0)));
+}
+
+}  // namespace brisance::simulator::gas
