@@ -18,6 +18,7 @@ struct Point {
   // Given by the caller.
   Tensor<Real> velocity_gradient;  // 1/s, constant over the step, at mid-step
   Real cell_size{0.0};             // m, for the artificial viscosity; 0 switches it off
+  Real heat{0.0};                  // J/kg, that comes from outside over the step
 
   // Kinematics.
   Tensor<Real> rotation;                   // of the step: what it has already done to the stress

@@ -298,7 +298,8 @@ void viscoelastic_stress(const M& material, Batch<Real>& batch, double dt) {
   });
 }
 
-/// Temperature from plastic work, artificial viscosity, elastic energy set free by melting, and reversible compression.
+/// Temperature from plastic work, artificial viscosity, heat from outside, elastic energy set free by melting, and reversible
+/// compression.
 template <class M, class Real>
 void heating(const M& material, Batch<Real>& batch) {
   visit_law(material.heating, [&](const Heating& heating) {
@@ -308,7 +309,7 @@ void heating(const M& material, Batch<Real>& batch) {
         const Real per_heat = 1.0 / law(s.temperature);
         const Real volume_change = 1.0 / s.density - 1.0 / p.density_before;
         p.warming = heating.taylor_quinney(s.plastic_strain) * per_heat;
-        Real other_heat = p.released_heat;
+        Real other_heat = p.released_heat + p.heat;
         if (heating.viscous) other_heat = other_heat - p.artificial_viscosity * volume_change;
         s.temperature = s.temperature + p.warming * p.plastic_work / s.density + per_heat * other_heat;
       }
@@ -324,8 +325,9 @@ void heating(const M& material, Batch<Real>& batch) {
   });
 }
 
-/// Pressure, energy and total stress at the end of the step. The energy takes all work; where the pressure depends on it the
-/// two are solved together. Temperature follows from the energy only for a thermodynamically complete law.
+/// Pressure, energy and total stress at the end of the step. The energy takes all work and the heat from outside; where the
+/// pressure depends on it the two are solved together. Temperature follows from the energy only for a thermodynamically
+/// complete law.
 template <class M, class Real>
 void pressure(const M& material, Batch<Real>& batch) {
   using equation_of_state::Caloric;
@@ -338,7 +340,8 @@ void pressure(const M& material, Batch<Real>& batch) {
       const Real volume_change = 1.0 / s.density - 1.0 / p.density_before;
       const Real deviatoric_work =
           double_dot(p.deviator_before + p.deviator, p.strain_increment) / (s.density + p.density_before);
-      const Real energy_but_p = s.energy + deviatoric_work - (0.5 * p.pressure_before + p.artificial_viscosity) * volume_change;
+      const Real energy_but_p =
+          s.energy + p.heat + deviatoric_work - (0.5 * p.pressure_before + p.artificial_viscosity) * volume_change;
       if constexpr (Law::caloric == Caloric::incremental)
         p.pressure = p.pressure_before + law.pressure(rho, s.energy) - law.pressure(p.metal_density_before, s.energy);
       else

@@ -107,11 +107,13 @@ std::string row(const Done& d) {
   const Balance& b = d.summary.books.balance;
   const double all = d.summary.books.peak_kinetic;
   return fmt::format(
-      "| {} | {} | {} | {} | {} | {:.1f} % | {} | {:.1f} | {:.2f} | {:+.2f} | {:+.2f} | {:+.2f} | {:.0e} | {} | {:.1f} |\n",
+      "| {} | {} | {} | {} | {} | {:.1f} % | {} | {:.1f} | {:.2f} | {:+.2f} | {:+.2f} | {:+.2f} | {:+.2f} | {:.0e} | {} | "
+      "{:.1f} |\n",
       d.entry.test, d.entry.label(), cell("final_length"), cell("mushroom_diameter"), cell("diameter_at_0.2"),
       100.0 * mean_error(d.summary), profile ? fmt::format("{:.1f} %", 100.0 * profile->value) : "-",
       100.0 * b.internal.plastic_work / all, 100.0 * b.internal.viscous_work / all, 100.0 * b.transfer / all,
-      100.0 * b.filter / all, 100.0 * b.stress_timing / all, b.residual / all, d.summary.particles, d.summary.wall_time);
+      100.0 * b.filter / all, 100.0 * b.filter_heat / all, 100.0 * b.stress_timing / all, b.residual / all, d.summary.particles,
+      d.summary.wall_time);
 }
 
 std::string table(const std::vector<Done>& runs, const std::string& commit) {
@@ -121,14 +123,16 @@ std::string table(const std::vector<Done>& runs, const std::string& commit) {
       "mean of "
       "the three; the profile error is relative to the initial radius. Energies in per cent of the initial kinetic energy: "
       "plastic "
-      "work, artificial viscosity, and the numerical books (transfer, filter, stress timing); `none` is what no book accounts "
+      "work, artificial viscosity, and the numerical books (transfer, filter, what of it becomes heat, stress timing); `none` "
+      "is what no book accounts "
       "for. "
       "Wall time in seconds on {} threads.\n\n",
       commit, omp_get_max_threads());
   text +=
-      "| test | law | length | diameter | at 0.2 L | D | profile | plastic | viscous | transfer | filter | timing | none | "
+      "| test | law | length | diameter | at 0.2 L | D | profile | plastic | viscous | transfer | filter | its heat | timing | "
+      "none | "
       "particles | wall |\n";
-  text += "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  text += "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Done& d : runs) text += row(d);
   return text;
 }

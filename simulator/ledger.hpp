@@ -5,7 +5,8 @@
 //
 //   kinetic energy    changes by the work of the grid's forces and boundaries, by the transfer between particles and grid, and
 //                     by the filter of the particle velocities
-//   internal energy   changes by the work of the stress and of the artificial viscosity on the particles
+//   internal energy   changes by the work of the stress and of the artificial viscosity on the particles, and by the heat of
+//                     the filter
 //   stress timing     is the difference between what the internal forces take from the grid and what the particles receive
 //
 // In the axisymmetric geometry everything is per radian.
@@ -37,16 +38,17 @@ struct Change {
 
 /// What the particles do within a step.
 struct ParticleTally {
-  Change state;           // kinetic energy, momentum and angular momentum at the end of the step
-  Change flip;            // by the change of the grid velocities
-  Change filter;          // by the filter of the particle velocities
-  Change external;        // by gravity, body forces and loads
-  Change advection;       // angular momentum by the motion across itself; nothing else
-  double internal = 0.0;  // J, work of the stress on the gradient of the grid velocity; only where external forces act
+  Change state;              // kinetic energy, momentum and angular momentum at the end of the step
+  Change flip;               // by the change of the grid velocities
+  Change filter;             // by the filter of the particle velocities
+  Change external;           // by gravity, body forces and loads
+  Change advection;          // angular momentum by the motion across itself; nothing else
+  double internal = 0.0;     // J, work of the stress on the gradient of the grid velocity; only where external forces act
+  double filter_heat = 0.0;  // J, what the filter turns to heat
 
   ParticleTally& operator+=(const ParticleTally& b) {
     state += b.state, flip += b.flip, filter += b.filter, external += b.external, advection += b.advection;
-    internal += b.internal;
+    internal += b.internal, filter_heat += b.filter_heat;
     return *this;
   }
 };
@@ -112,6 +114,7 @@ struct Ledger {
   std::vector<CompensatedSum> friction;  // J, of each boundary's energy
   Account transfer;                      // what the particles receive of a change of the grid velocities, less that change
   Account filter;                        // of the particle velocities
+  CompensatedSum filter_heat;            // J, what the filter has turned to heat
   Account advection;                     // angular momentum only
   Account outflow;                       // carried away by particles that have left
   double outflow_internal = 0.0;         // J
@@ -155,15 +158,25 @@ struct Balance {
   InternalEnergy internal;                                   // of all bodies
   double external = 0.0, boundary = 0.0, friction = 0.0;     // J
   double transfer = 0.0, filter = 0.0, stress_timing = 0.0;  // J, numerical
+  double filter_heat = 0.0;                                  // J, what of the filter's loss has become heat
   double outflow = 0.0;                                      // J
   double residual = 0.0;                                     // J, in no bin
   Vector momentum_residual{}, angular_momentum_residual{};
-  double numerical() const { return transfer + filter + stress_timing; }
+  double numerical() const { return transfer + filter + filter_heat + stress_timing; }
   friend Balance operator*(double f, const Balance& a) {
-    return {f * a.kinetic,  f * a.internal,          f * a.external,
-            f * a.boundary, f * a.friction,          f * a.transfer,
-            f * a.filter,   f * a.stress_timing,     f * a.outflow,
-            f * a.residual, f * a.momentum_residual, f * a.angular_momentum_residual};
+    return {f * a.kinetic,
+            f * a.internal,
+            f * a.external,
+            f * a.boundary,
+            f * a.friction,
+            f * a.transfer,
+            f * a.filter,
+            f * a.stress_timing,
+            f * a.filter_heat,
+            f * a.outflow,
+            f * a.residual,
+            f * a.momentum_residual,
+            f * a.angular_momentum_residual};
   }
 };
 Balance balance(const Ledger& ledger, const InternalEnergy& internal);

@@ -16,7 +16,7 @@ namespace brisance::simulator {
 namespace {
 
 using Path = std::filesystem::path;
-constexpr std::string_view format = "brisance checkpoint 2";
+constexpr std::string_view format = "brisance checkpoint 3";
 
 std::vector<double> numbers_of(const Extremes& e) {
   return {e.wave_speed, e.wave_and_motion, e.speed, e.volume_rate, e.filling};
@@ -29,7 +29,8 @@ Extremes extremes_from(const std::vector<double>& v) {
 template <class AnyLedger, class F>
 void for_each_part(AnyLedger& ledger, F&& f) {
   f(ledger.initial), f(ledger.initial_internal), f(ledger.state), f(ledger.peak_kinetic);
-  f(ledger.internal_force), f(ledger.external), f(ledger.transfer), f(ledger.filter), f(ledger.advection);
+  f(ledger.internal_force), f(ledger.external), f(ledger.transfer), f(ledger.filter), f(ledger.filter_heat),
+      f(ledger.advection);
   f(ledger.outflow), f(ledger.outflow_internal), f(ledger.outflow_work), f(ledger.outflow_mass);
   for (auto& account : ledger.boundary) f(account);
   for (auto& friction : ledger.friction) f(friction);

@@ -141,6 +141,7 @@ void draw_energy(const Case& c, const Path& directory) {
       unit);
   Panel numerical = against_time("Numerical books", "energy", time,
                                  {curve("transfer_energy", "transfer", 0), curve("filter_energy", "filter", 1),
+                                  curve("filter_heat", "heat of the filter", 3),
                                   curve("stress_timing_energy", "stress timing", 2), curve("energy_residual", "in no book", 6)},
                                  unit);
   draw({c.title, {std::move(physical), std::move(numerical)}, 1, 900, 380}, directory / "energy.png");

@@ -171,6 +171,7 @@ std::vector<BookEntry> entries_of(const Books& books) {
                                     {"outflow_mass", mass, books.outflow_mass},
                                     {"transfer_energy", energy, b.transfer},
                                     {"filter_energy", energy, b.filter},
+                                    {"filter_heat", energy, b.filter_heat},
                                     {"stress_timing_energy", energy, b.stress_timing},
                                     {"energy_residual", energy, b.residual},
                                     {"mass", mass, b.internal.mass}};

@@ -130,7 +130,8 @@ std::string in_words(const Summary& s) {
       row("internal, change", b.internal.total - s.books.initial_internal), row("thermal, change", b.internal.thermal);
   row("plastic work", b.internal.plastic_work), row("work from outside", b.external + b.boundary), row("friction", b.friction);
   row("artificial viscosity", b.internal.viscous_work), row("transfer", b.transfer), row("filter", b.filter);
-  row("stress timing", b.stress_timing), row("outflow", b.outflow), row("in no book", b.residual);
+  row("heat of the filter", b.filter_heat), row("stress timing", b.stress_timing), row("outflow", b.outflow),
+      row("in no book", b.residual);
   return text;
 }
 

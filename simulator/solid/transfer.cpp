@@ -469,8 +469,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
   using Vec = std::array<Lanes, D>;
   const double h = s.grid.cell_size;
   const bool aflip = s.numerics.particle_velocity == ParticleVelocity::aflip;
-  const double filter_time = s.numerics.filter_time * h / s.extremes.wave_speed;
-  const double beta = aflip ? -std::expm1(-step.dt / filter_time) : 0.0;
+  const double beta = aflip ? -std::expm1(-step.dt / filter_time(s)) : 0.0;
   const bool external = s.has_external_forces();
   constexpr double anothers_mass = 1e-3;  // relative to its own, that a particle alone may see
   const double kept_alone = std::exp(-step.dt * s.extremes.wave_speed / h);
@@ -479,10 +478,12 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
   Lanes* remapped = s.grid.tile(tile.number, 0);
   if (step.remap) std::fill_n(remapped, motion.size(), Lanes(0.0));
   Changes<D> flip, filter, state, advection, field_forces;
-  Lanes internal(0.0);
+  Lanes internal(0.0), filter_heat(0.0);
 
   for_each_share(s, tile, [&](std::size_t number, Body& body, const Bin& bin) {
     Particles& ps = body.particles;
+    const double heat =
+        filter_heats(s, body) ? 0.5 * beta * (2.0 - beta) : 0.0;  // of the square of what is relative to the grid
     CellMeans<D> pressures;
     if (external) pressures = cell_pressures<D>(body, bin, tile.position, h);
     for_each_eight(
@@ -505,8 +506,9 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
           const Lanes booked = eight.only_used(m);
           for (int a = 0; a < D; ++a) {
             const Lanes v_grid = grid.value[Channel::velocity + a], dv = grid.value[Channel::change + a];
-            const Lanes v_flip = v[a] + dv, filtered = beta * (v_grid - v_flip);
+            const Lanes v_flip = v[a] + dv, relative = v_flip - v_grid, filtered = -beta * relative;
             v_new[a] = v_flip + filtered;
+            filter_heat += heat * booked * relative * relative;
             x_new[a] = x[a] + step.dt * v_grid;
             to.write(L::Motion::position + a, x_new[a]), to.write(L::Motion::velocity + a, v_new[a]);
             by_grid[a] = booked * dv, mean_by_grid[a] = v[a] + 0.5 * dv;
@@ -575,7 +577,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
   tally.flip += flip.total(), tally.filter += filter.total(), tally.state += state.total();
   tally.external += field_forces.total();
   tally.advection.angular_momentum = advection.total().angular_momentum;
-  for (int i = 0; i < 8; ++i) tally.internal += internal[i];
+  for (int i = 0; i < 8; ++i) tally.internal += internal[i], tally.filter_heat += filter_heat[i];
   if (step.remap)
     for (int f = 0; f < s.grid.fields; ++f) fold<D>(s.boundaries, tile.key, s.grid.tile(tile.number, f));
 }
@@ -640,6 +642,15 @@ double gradients(Simulation& s, const TileView& tile) {
 }
 
 }  // namespace
+
+double filter_time(const Simulation& s) {
+  return s.numerics.filter_time * s.grid.cell_size / s.extremes.wave_speed;
+}
+
+bool filter_heats(const Simulation& s, const Body& body) {
+  return s.numerics.particle_velocity == ParticleVelocity::aflip && s.numerics.stress_timing != StressTiming::usf &&
+         !body.stress;
+}
 
 Vector acceleration_field(const Simulation& s, const Vector& position) {
   return s.body_force ? s.gravity + s.body_force(position, s.time) : s.gravity;

@@ -218,14 +218,14 @@ Collision collide(double h, ParticleVelocity v) {
   EXPECT_LT(asymmetry, 1e-13);
   Balance b = balance(s.ledger, internal_energy(s));
   EXPECT_LT(b.residual, 1e-10 * kinetic);
-  for (double* x : {&b.transfer, &b.filter, &b.stress_timing}) *x /= kinetic;
+  for (double* x : {&b.transfer, &b.filter, &b.filter_heat, &b.stress_timing}) *x /= kinetic;
   const Collision result{sum / (steps * kinetic), b};
   EXPECT_NEAR((energy(s) - start) / kinetic, b.numerical(), 1e-10) << "every change of energy is in a bin";
   std::printf(
-      "disks, h = %.3f, %s: energy changes by %.3f %%: transfer %.3f, filter %.3f, stress timing %.3f; momentum %.1e, "
-      "asymmetry %.1e\n",
+      "disks, h = %.3f, %s: energy changes by %.3f %%: transfer %.3f, filter %.3f, its heat %.3f, stress timing %.3f; "
+      "momentum %.1e, asymmetry %.1e\n",
       h, v == ParticleVelocity::flip ? "FLIP" : "AFLIP", 100.0 * result.energy_change, 100.0 * b.transfer, 100.0 * b.filter,
-      100.0 * b.stress_timing, momentum_error / unit, asymmetry);
+      100.0 * b.filter_heat, 100.0 * b.stress_timing, momentum_error / unit, asymmetry);
   return result;
 }
 

@@ -70,6 +70,7 @@ TEST(Ledger, ClosesToRoundOffWithEverythingAtOnce) {
         for (const double x :
              {b.external, b.boundary, b.transfer, b.filter, b.stress_timing, b.internal.plastic_work, b.internal.viscous_work})
           EXPECT_GT(std::abs(x), some) << what;
+        EXPECT_EQ(b.filter_heat > some, timing != StressTiming::usf) << what;
         if (g != Geometry::axisymmetric) {
           EXPECT_LT(b.friction, -some) << what;
           // Action is reaction: in Cartesian coordinates the internal forces give no momentum, nor does the way between
@@ -159,6 +160,9 @@ TEST(Gates, MissExternalWork) {
 TEST(Gates, MissTheFilterOfVelocities) {
   expect_missed("energy", forgetting([](ParticleResult& p, NodeResult&) { p.tallies.front().filter = {}; }));
 }
+TEST(Gates, MissTheHeatOfTheFilter) {
+  expect_missed("energy", forgetting([](ParticleResult& p, NodeResult&) { p.tallies.front().filter_heat = 0.0; }));
+}
 TEST(Gates, MissInternalWork) {
   expect_missed("energy", forgetting([](ParticleResult& p, NodeResult&) { p.tallies.front().internal = 0.0; }));
 }
@@ -224,7 +228,7 @@ TEST(Books, OfBodiesAddUpToThoseOfAll) {
 }
 
 /// Without heat conduction or compression to speak of, heat is the plastic work that Taylor and Quinney's coefficient leaves,
-/// and that of the artificial viscosity; the rest of the plastic work is stored.
+/// that of the artificial viscosity and that of the filter; the rest of the plastic work is stored.
 TEST(Books, TellHeatFromStoredWork) {
   Case c = everything(Geometry::plane);
   Material& m = c.bodies[0].material.material;
@@ -238,9 +242,11 @@ TEST(Books, TellHeatFromStoredWork) {
   ASSERT_GT(e.plastic_work, 0.0);
   EXPECT_NEAR(e.plastic_heat, 0.6 * e.plastic_work, 1e-12 * e.plastic_work);
   EXPECT_NEAR(e.stored_cold_work(), 0.4 * e.plastic_work, 1e-12 * e.plastic_work);
+  const double filter_heat = s.ledger.filter_heat.value();
+  EXPECT_GT(filter_heat, 0.0);
   // Temperature takes the viscous heat at the end of the step, energy over it: equal to the order of the step.
-  EXPECT_NEAR(e.thermal, e.plastic_heat + e.viscous_work, 1e-3 * e.thermal);
-  EXPECT_NEAR(e.gained, e.stress_work + e.viscous_work, 1e-9 * e.stress_work);
+  EXPECT_NEAR(e.thermal, e.plastic_heat + e.viscous_work + filter_heat, 1e-3 * e.thermal);
+  EXPECT_NEAR(e.gained, e.stress_work + e.viscous_work + filter_heat, 1e-9 * e.stress_work);
   EXPECT_GT(e.elastic, 0.0);
   EXPECT_NEAR(e.thermal + e.elastic + e.stored_cold_work() + e.cold(), e.gained, 1e-12 * e.gained);
 }

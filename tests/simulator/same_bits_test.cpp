@@ -249,7 +249,7 @@ std::vector<std::uint64_t> bytes_of(const Simulation& s) {
     add(a, sizeof(Account));
   for (const Account& a : l.boundary) add(&a, sizeof(Account));
   for (const CompensatedSum& f : l.friction) add(&f, sizeof(f));
-  add(&l.outflow_internal, sizeof(double)), add(&l.outflow_mass, sizeof(double));
+  add(&l.filter_heat, sizeof(l.filter_heat)), add(&l.outflow_internal, sizeof(double)), add(&l.outflow_mass, sizeof(double));
   return all;
 }
 
