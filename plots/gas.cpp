@@ -258,6 +258,7 @@ struct Watch {
   std::string label;
   std::function<std::vector<double>(const Simulation&)> read;
   std::function<double(const Watched&, double time)> exact;
+  double per_si = 1.0;  // of what is drawn
 };
 struct Entry {
   std::string name, file;
@@ -300,18 +301,22 @@ double largest_change(const Watched& run, std::size_t number) {
 
 /// The chamber behind a slot at x = 36 mm: mass, energy, volume.
 Watch chamber(double slot) {
-  return {32, "mass in the chamber (kg/m)",
+  constexpr double grams = 1e3;
+  return {32, "mass in the chamber (g/m)",
           [](const Simulation& s) {
             constexpr double throat = 36e-3;
             const Held in = held(s, [](const Vector& x) { return x[0] < throat; });
             return std::vector{in.mass, in.energy, in.volume};
           },
-          // A chamber of one state whose entropy stays.
+          // A chamber of one state whose entropy stays, from half of the time on, when the flow has come to its own.
           [slot](const Watched& run, double t) {
-            const std::vector<double>& start = run.values[0];
-            const double sound = std::sqrt(gamma * (gamma - 1.0) * start[1] / start[0]);
-            return start[0] * std::pow(1.0 + 0.5 * (gamma - 1.0) * choked * sound * slot / start[2] * t, -2.0 / (gamma - 1.0));
-          }};
+            const std::size_t half = run.time.size() / 2;
+            const std::vector<double>& then = run.values[half];
+            const double sound = std::sqrt(gamma * (gamma - 1.0) * then[1] / then[0]);
+            const double rate = 0.5 * (gamma - 1.0) * choked * sound * slot / then[2];
+            return then[0] * std::pow(1.0 + rate * (t - run.time[half]), -2.0 / (gamma - 1.0));
+          },
+          grams};
 }
 /// What has left in the second half of the time over the choked flow of the chamber's mean states.
 Measure flow_through(double slot) {
@@ -410,7 +415,7 @@ std::vector<Entry> entries() {
             return std::abs(front(line.place, line.computed, 0.5 * (behind + ahead)) - 0.2) / line.cell_size;
           }}});
   };
-  noh("noh_cylindrical_1d", 15.87, 16.0, 4.0), noh("noh_spherical_1d", 62.4, 64.0, 16.0);
+  noh("noh_planar_1d", 4.0, 4.0, 1.0), noh("noh_cylindrical_1d", 15.87, 16.0, 4.0), noh("noh_spherical_1d", 62.4, 64.0, 16.0);
   for (const char* file : {"noh_axisymmetric", "noh_three_dimensional"})
     add(file, "density",
         {{"spread of the radius", 0.015, [](const Ran& ran) { return fronts(ran, 0.5, 16.0, 40.0).spread; }},
@@ -418,15 +423,20 @@ std::vector<Entry> entries() {
           [](const Ran& ran) { return std::abs(fronts(ran, 0.5, 16.0, 40.0).mean - 0.2) / ran.config.cell_size; }},
          {"plateau across the axis, below 64", 0.03,
           [](const Ran& ran) { return 1.0 - plateau(line_of(ran, "density"), 0.1, 0.16) / 64.0; }}});
-  const auto from_radius = [](double radius, double h) { return std::abs(radius - 1.0) - 0.5 * h - 0.003; };
-  add("sedov_spherical_1d", "density",
-      {{"radius from 1, beyond half a cell and 0.3 %", 0.0,
-        [=](const Ran& ran) {
-          const Line line = line_of(ran, "density");
-          return from_radius(front(line.place, line.computed, 0.5 * (peak(line.computed) + 1.0)), line.cell_size);
-        }},
-       {"peak of the density", 0.98 * 5.04, [](const Ran& ran) { return peak(line_of(ran, "density").computed); }, true},
-       closed});
+  const auto from_radius = [](double radius, double h, double exact = 1.0) {
+    return std::abs(radius - exact) - 0.5 * h - 0.003 * exact;
+  };
+  for (const auto& [file, radius, peak_goal] : {std::tuple{"sedov_planar_1d", 0.5, -reported},
+                                                {"sedov_cylindrical_1d", 0.75, 0.98 * 5.12},
+                                                {"sedov_spherical_1d", 1.0, 0.98 * 5.04}})
+    add(file, "density",
+        {{"radius, beyond half a cell and 0.3 %", 0.0,
+          [=](const Ran& ran) {
+            const Line line = line_of(ran, "density");
+            return from_radius(front(line.place, line.computed, 0.5 * (peak(line.computed) + 1.0)), line.cell_size, radius);
+          }},
+         {"peak of the density", peak_goal, [](const Ran& ran) { return peak(line_of(ran, "density").computed); }, true},
+         closed});
   for (const auto& [file, peak_goal] : {std::pair{"sedov_axisymmetric", 0.85 * 4.50}, {"sedov_three_dimensional", -reported}})
     add(file, "density",
         {{"radius from 1, beyond half a cell and 0.3 %", 0.0,
@@ -447,6 +457,10 @@ std::vector<Entry> entries() {
        "title=Vortex of Gresho at Mach 0.01"},
       "_mach_001");
   add("gresho_vortex_implicit", "velocity", {motion, closed});
+  add("gresho_vortex_implicit", "velocity", {motion, closed},
+      {"gas.fill.0.profile.file=gresho_vortex_mach_0001_start.csv", "figure.0.reference=gresho_vortex_mach_0001.csv",
+       "title=Vortex of Gresho at Mach 0.001, implicit"},
+      "_mach_0001");
   add("hydrostatic_column", "pressure",
       {{"fastest, over the speed of sound", 1e-10, largest_error("velocity", std::sqrt(1.4 * 0.4 * 718.0 * 250.0))}});
   add("water_air_shock_tube", "density", {relative_L1(2.4e-3), closed});
@@ -587,8 +601,8 @@ Panel panel_of(const Watched& ran, const Entry& entry) {
     panel.curves[0].size = 0.4;
     for (std::size_t n = 0; n < ran.time.size(); ++n) {
       for (Curve& curve : panel.curves) curve.x.push_back((quick ? milli : 1.0) * ran.time[n]);
-      panel.curves[0].y.push_back(ran.values[n][0]);
-      panel.curves[1].y.push_back(entry.watch->exact(ran, ran.time[n]));
+      panel.curves[0].y.push_back(entry.watch->per_si * ran.values[n][0]);
+      panel.curves[1].y.push_back(entry.watch->per_si * entry.watch->exact(ran, ran.time[n]));
     }
     widen(panel);
     return panel;
