@@ -179,15 +179,14 @@ TEST(Noh, OnARadiusHasTheShockAndThePlateauOfAnotherCode) {
 }
 
 TEST(Noh, IsRoundInMoreDimensions) {
-  // A spread of 0.015 and a plateau within 0.03: in the plane with 200 cells, about the axis, where the wall heats the gas on
-  // it, with 400, which take longer than a test may; 200 have 0.018 and 0.033. In space, where half a cell of 48 is 0.05 of the
-  // radius, the goal is missed: 0.052 there and 0.054 with 96 cells, the plateau 15 and 6 % low, as on a radius of so many.
+  // The goals are a spread of 0.015 and a plateau within 0.03. In space they take 96 cells and more than 200, as the plateau
+  // does on a radius; more than a test may. What fewer have: a quarter of a cell of 48 is 0.026 of the radius.
   const bool long_tests = std::getenv("BRISANCE_LONG_TESTS") != nullptr;
-  constexpr double round = isotropic, flat_enough = 0.03;
+  constexpr double flat_enough = 0.03;
   for (const auto& [g, cells, roundness, flat] :
-       {std::tuple{in_plane, 200, round, flat_enough},
-        {about_axis, long_tests ? 400 : 200, long_tests ? round : 0.02, long_tests ? flat_enough : 0.04},
-        {in_space, 48, 0.06, 0.16}}) {
+       {std::tuple{in_plane, 200, 0.01, flat_enough},
+        {about_axis, long_tests ? 400 : 200, long_tests ? 0.005 : 0.01, long_tests ? flat_enough : 0.04},
+        {in_space, long_tests ? 96 : 48, long_tests ? isotropic : 0.03, long_tests ? 0.07 : 0.13}}) {
     const auto domain = single_process();
     const Gas gas = noh(g, cells, *domain);
     const Noh exact{5.0 / 3.0, g.symmetry};
@@ -329,10 +328,10 @@ TEST(Sedov, IsRoundInMoreDimensions) {
     const Fronts shock = fronts(rays, [&](const Vector& d) { return rays.front(d, reach, 0.5 * (rays.peak(d, reach) + 1.0)); });
     EXPECT_GT(peak, 0.85 * radial_peak) << g.name;
     // Where the same cells on a radius have it; the goal there is half a cell and 0.3 %, which 120 cells about an axis miss by
-    // a tenth of a cell. The goal for the roundness is missed in space, where 40 cells are too few for it.
+    // a tenth of a cell.
     const double radial_front = on_one.front({1.0, 0.0, 0.0}, reach, 0.5 * (radial_peak + 1.0));
     EXPECT_NEAR(shock.mean, radial_front, 0.5 * gas.cells.cell_size) << g.name;
-    EXPECT_LT(shock.spread, g.symmetry == 3 && cells < 100 ? 2.0 * isotropic : isotropic) << g.name;
+    EXPECT_LT(shock.spread, isotropic) << g.name;
     RecordProperty("sedov_" + g.name, std::to_string(shock.mean) + " of " + std::to_string(radial_front) + ", spread " +
                                           std::to_string(shock.spread) + ", peak " + std::to_string(peak) + " of " +
                                           std::to_string(radial_peak));
