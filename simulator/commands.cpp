@@ -121,12 +121,12 @@ int check_case(const Options& o) {
   const DryRun dry = dry_run(c, s);
   fmt::print("{}\n", c.title);
   const std::string_view point = name_of_points(s);
-  for (const auto& [name, count] : dry.points) fmt::print("  {:24} {} {}s\n", name, count, point);
+  for (const DryRun::Points& p : dry.points) fmt::print("  {:24} {} {}\n", p.name, p.count, p.kind);
   fmt::print("  {:24} {:.1f} MB\n  {:24} {:.4g} s, limited by {}\n", "memory", dry.megabytes, "time step", dry.first_step,
              dry.limit);
-  fmt::print("  {:24} {:.3g}\n  {:24} {:.0f} ns per {} and step, measured now with {} threads\n", "steps, about", dry.steps,
-             "speed", dry.nanoseconds, point, omp_get_max_threads());
-  fmt::print("  {:24} {}\n", "time on the clock, about",
+  fmt::print("  {:24} {:.3g}\n  {:24} {:.0f} ns per {} and step, measured now with {} threads\n", "steps, an estimate",
+             dry.steps, "speed", dry.nanoseconds, point, omp_get_max_threads());
+  fmt::print("  {:24} {}\n", "time, an estimate",
              dry.hours < 0.1 ? fmt::format("{:.1f} s", 3600.0 * dry.hours) : fmt::format("{:.2f} h", dry.hours));
   for (const std::string& warning : dry.warnings) fmt::print("  warning: {}\n", warning);
   return done;
@@ -204,7 +204,7 @@ int run_command_line(int argc, char** argv) {
   CLI::App* run_command = app.add_subcommand("run", "Simulate a case");
   add_case(run_command);
   run_command->add_option("-o,--output", o.directory, "directory of the run (default: CASE_run)");
-  run_command->add_flag("--overwrite", o.overwrite, "replace a run of another case in that directory");
+  run_command->add_flag("--overwrite", o.overwrite, "replace the run that is in that directory");
   run_command->callback([&] { code = run_case(o); });
 
   CLI::App* check_command = app.add_subcommand("check", "What a case would take, and what looks wrong with it");

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "simulator/gas/step_estimate.hpp"
 #include "simulator/run.hpp"
 #include "simulator/set_up_warnings.hpp"
 #include "simulator/step_size.hpp"
@@ -50,10 +51,10 @@ std::vector<std::string> warnings_of(const Case& c, const Simulation& s, double 
 
 DryRun dry_run(const Case& c, Simulation& s) {
   DryRun result;
-  for (const Body& body : s.bodies) result.points.emplace_back(body.name, body.particles.size);
-  if (!s.gas.empty()) result.points.emplace_back("gas", s.gas.cells.count());
+  for (const Body& body : s.bodies) result.points.push_back({body.name, body.particles.size, "particles"});
+  if (!s.gas.empty()) result.points.push_back({"gas", s.gas.cells.count(), "cells"});
   for (const gas::MovingBody& body : s.gas.bodies.all)
-    result.points.emplace_back(body.name, static_cast<std::int64_t>(body.places.size()));
+    result.points.push_back({body.name, static_cast<std::int64_t>(body.places.size()), "particles"});
   const auto points = static_cast<double>(count_points(s));
   const StepSize first = next_step(s, c.numerics, c.end_time);
   result.first_step = first.dt, result.limit = first.limit;
@@ -63,6 +64,7 @@ DryRun dry_run(const Case& c, Simulation& s) {
   constexpr int most_steps = 20;
   const auto start = Clock::now();
   const auto seconds = [](Clock::time_point since) { return std::chrono::duration<double>(Clock::now() - since).count(); };
+  const double gas_step = s.gas.empty() ? 0.0 : gas::step_after_jumps(s.gas, gas_courant(s.gas));
   double shortest = 0.0;  // other programs only make a step longer
   for (int i = 0; i < most_steps && seconds(start) < long_enough; ++i) {
     const auto step_start = Clock::now();
@@ -72,9 +74,14 @@ DryRun dry_run(const Case& c, Simulation& s) {
   double bytes = static_cast<double>(s.grid.bytes() + s.gas.bytes());
   for (const Body& body : s.bodies) bytes += static_cast<double>(body.particles.bytes());
   result.megabytes = bytes / 1e6;
-  // The start is often slower than what follows, or faster: this is a guess.
-  const double step = std::max(result.first_step, s.last_time_step);
+  // The start is often slower than what follows, or faster.
+  const double step = s.gas.empty() ? std::max(result.first_step, s.last_time_step)
+                                    : std::min(gas_step, gas::largest_step(s.gas, gas_courant(s.gas)));
   result.steps = c.end_time / step;
+  // Short first steps grow geometrically until they are as long as those that follow.
+  if (result.first_step < step)
+    result.steps += std::log(step / result.first_step) / std::log(c.numerics.growth) -
+                    (1.0 - result.first_step / step) / (c.numerics.growth - 1.0);
   result.nanoseconds = 1e9 * shortest / points;
   result.hours = result.steps * points * result.nanoseconds * 1e-9 / 3600.0;
   return result;

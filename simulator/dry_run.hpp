@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "simulator/simulation.hpp"
@@ -11,11 +11,16 @@
 namespace brisance::simulator {
 
 struct DryRun {
-  std::vector<std::pair<std::string, std::int64_t>> points;  // particles of each body, or cells of the gas
+  struct Points {
+    std::string name;
+    std::int64_t count;
+    std::string_view kind;  // "particles" of a body, "cells" of the gas
+  };
+  std::vector<Points> points;
   double megabytes = 0.0;
   double first_step = 0.0;   // s
   std::string limit;         // what the first step is limited by
-  double steps = 0.0;        // if the steps stay as the first one
+  double steps = 0.0;        // an estimate: of solids as if the steps stayed as those taken, of gas by step_estimate.hpp
   double nanoseconds = 0.0;  // per particle or cell and step, of a few steps taken
   double hours = 0.0;
   std::vector<std::string> warnings;

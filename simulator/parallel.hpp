@@ -19,15 +19,21 @@ template <class F>
 void parallel_for_blocks(std::size_t count, F&& f) {
   std::exception_ptr first;
   std::size_t thrower = count;
-  const bool worth_sharing = count >= least_blocks_per_thread * static_cast<std::size_t>(omp_get_max_threads());
-#pragma omp parallel for schedule(dynamic, 1) if (worth_sharing)
-  for (std::size_t i = 0; i < count; ++i) {
+  const auto attempt = [&](std::size_t i) {
     try {
       f(i);
     } catch (...) {
 #pragma omp critical(brisance_first_exception)
       if (i < thrower) thrower = i, first = std::current_exception();
     }
+  };
+  const auto threads = static_cast<std::size_t>(omp_get_max_threads());
+  if (threads == 1 || count < least_blocks_per_thread * threads) {
+    // Even a team of one takes a microsecond to call together: as long as ten cells of gas.
+    for (std::size_t i = 0; i < count; ++i) attempt(i);
+  } else {
+#pragma omp parallel for schedule(dynamic, 1)
+    for (std::size_t i = 0; i < count; ++i) attempt(i);
   }
   if (first) std::rethrow_exception(first);
 }

@@ -13,6 +13,11 @@ double courant_number(const Simulation& s, const NumericsConfig& n) {
 
 }  // namespace
 
+double gas_courant(const gas::Gas& gas) {
+  constexpr double part = 0.5;
+  return gas.courant > 0.0 ? gas.courant : part;
+}
+
 StepSize next_step(const Simulation& s, const NumericsConfig& numerics, double end_time) {
   const double h = s.grid.cell_size;
   const Extremes& e = s.extremes;
@@ -25,10 +30,9 @@ StepSize next_step(const Simulation& s, const NumericsConfig& numerics, double e
   if (e.speed > 0.0) limit(farthest * h / e.speed, "the speed of particles");
   if (e.volume_rate > 0.0) limit(numerics.most_volume_change / e.volume_rate, "the rate of volume change");
   if (!s.gas.empty()) {
-    constexpr double part = 0.5;
     // A jump at the start sends out waves that nobody knows of yet.
     constexpr double first = 0.1;
-    const double step = gas::largest_step(s.gas, s.gas.courant > 0.0 ? s.gas.courant : part);
+    const double step = gas::largest_step(s.gas, gas_courant(s.gas));
     limit(s.last_time_step > 0.0 ? step : first * step, "the speed of waves in the gas");
   }
   if (s.last_time_step > 0.0)

@@ -22,7 +22,7 @@ equation_of_state::DensityRange range_of(const Fluid& fluid) {
 /// Keeps the worst of two; of equals the first in time, then `a`.
 void add(OutsideRange& a, const OutsideRange& b) {
   const std::int64_t cell_steps = a.cell_steps + b.cell_steps;
-  if (b.excess > a.excess || (b.excess == a.excess && b.time < a.time)) a = b;
+  if (a.cell_steps == 0 || b.excess > a.excess || (b.excess == a.excess && b.time < a.time)) a = b;
   a.cell_steps = cell_steps;
 }
 
@@ -30,14 +30,15 @@ OutsideRange look(const Gas& gas, std::size_t block, std::size_t fluid, const eq
   OutsideRange found;
   const int first = Content::fluids(gas.dimensions()) + static_cast<int>(fluid) * gas.fluid_quantities();
   const int volume_at = gas.fluids.size() == 1 ? Content::room : first + Content::volume;
-  const double smallest = least_part, per_highest = 1.0 / range.highest;
+  const Lanes* const masses = gas.content.at(block, first);
+  const Lanes* const volumes = gas.content.at(block, volume_at);
+  const Lanes* const rooms = gas.content.at(block, Content::room);
   for (int k = 0; k < gas.cells.packs(); ++k) {
-    const Lanes mass = gas.content.at(block, first)[k], volume = gas.content.at(block, volume_at)[k];
-    const Lanes density = mass / volume;
-    const Lanes excess = max(density * per_highest, range.lowest / density);
-    LanesMask outside = (excess > 1.0) & (volume > smallest * gas.content.at(block, Content::room)[k]);
+    const Lanes mass = masses[k], volume = volumes[k];
+    LanesMask outside = (mass > range.highest * volume) | (mass < range.lowest * volume);
     if (none(outside)) continue;
-    outside &= lanes_of(cells_inside(gas.cells, block, k));
+    outside &= (volume > least_part * rooms[k]) & lanes_of(cells_inside(gas.cells, block, k));
+    const Lanes density = mass / volume, excess = max(density * (1.0 / range.highest), range.lowest / density);
     for (int l = 0; l < 8; ++l) {
       const int cell = 8 * k + l;
       if (!outside[l] || !(open_part(gas, block, cell) > 0.0)) continue;

@@ -34,11 +34,9 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A run that was interrupted, killed or stopped by an error, and has something to go on from.
-bool is_unfinished(const fs::path& directory) {
+bool is_finished(const fs::path& directory) {
   const fs::path summary = directory / "summary.json";
-  const bool ended = fs::exists(summary) && text_of(summary).find("\"ending\": \"done\"") != std::string::npos;
-  return has_checkpoint(directory) && !ended;
+  return fs::exists(summary) && text_of(summary).find("\"ending\": \"done\"") != std::string::npos;
 }
 
 using Files = std::vector<std::pair<std::string, std::string>>;  // name, content
@@ -70,7 +68,8 @@ void prepare_directory(const fs::path& directory, const Case& c, bool overwrite)
     const fs::path earlier = directory / "case.toml";
     const std::string why = !fs::exists(earlier)                                      ? "holds files that are no run"
                             : text_of(earlier) != text || !holds(directory, profiles) ? "holds a run of another case"
-                            : is_unfinished(directory)
+                            : is_finished(directory) ? "holds this run, finished (brisance report tells of it)"
+                            : has_checkpoint(directory)
                                 ? "holds a run that has not come to its end (brisance resume goes on with it)"
                                 : "";
     if (!why.empty())

@@ -11,8 +11,9 @@
 namespace brisance::simulator {
 
 /// Makes the directory of a new run and writes case.toml, with the profiles that it names beside it. Throws
-/// std::invalid_argument if it holds something else than an earlier run of the same case, unless that may be overwritten; what
-/// does not look like the output of a run is never removed.
+/// std::invalid_argument if it holds anything that is worth something, unless that may be overwritten: files that are no run, a
+/// run of another case, this run if it has finished or left a checkpoint. What does not look like the output of a run is never
+/// removed.
 void prepare_directory(const std::filesystem::path& directory, const Case& c, bool overwrite);
 
 /// log.txt: lines with the time since the start. It never throws: what the log cannot hold is no reason to end a run.

@@ -51,7 +51,12 @@ TEST(RunCommand, RefusesADirectoryThatHoldsSomethingElse) {
   EXPECT_TRUE(contains(foreign.err, "holds files that are no run")) << foreign.err;
   EXPECT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.2 us", "--overwrite"}).code, done);
   EXPECT_EQ(text_of(directory / "run" / "thesis.tex"), "years of work");
-  EXPECT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.2 us"}).code, done) << "the same case again";
+  const std::string finished = text_of(directory / "run" / "history.csv");
+  const Answer again = call({"run", file, "-o", run, "--set", "end_time=0.2 us"});
+  EXPECT_EQ(again.code, bad_input) << "the same case again";
+  EXPECT_TRUE(contains(again.err, "holds this run, finished")) << again.err;
+  EXPECT_EQ(text_of(directory / "run" / "history.csv"), finished);
+  EXPECT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.2 us", "--overwrite"}).code, done);
   const Answer other = call({"run", file, "-o", run, "--set", "end_time=0.3 us"});
   EXPECT_EQ(other.code, bad_input);
   EXPECT_TRUE(contains(other.err, "run of another case")) << other.err;
@@ -138,6 +143,39 @@ TEST(CheckCommand, TellsSizeAndTimeAndWarnsOfThinBodies) {
   const Answer coarse = call({"check", file, "--set", "cell_size=3.2 mm", "--set", "solid.0.velocity=[0, -9000]"});
   EXPECT_TRUE(contains(coarse.out, "it is 2 cells thick, fewer than 4")) << coarse.out;
   EXPECT_TRUE(contains(coarse.out, "faster than sound")) << coarse.out;
+}
+
+TEST(CheckCommand, ForeseesTheStepsOfAGasAndCallsBodiesParticles) {
+  const std::string cases = BRISANCE_SOURCE_DIR "/data/cases/";
+  const auto steps = [&](const std::string& name) {
+    const std::string out = call({"check", cases + name + ".toml"}).out;
+    const std::size_t at = out.find("steps, an estimate");
+    return at == std::string::npos ? 0.0 : std::stod(out.substr(at + 18));
+  };
+  // As the runs took them: a shock tube; gas that is driven at a wall.
+  EXPECT_NEAR(steps("sod"), 364.0, 0.1 * 364.0);
+  EXPECT_NEAR(steps("noh_spherical_1d"), 517.0, 0.25 * 517.0);
+  const std::string gun = call({"check", cases + "gas_driven_projectile.toml"}).out;
+  EXPECT_TRUE(contains(gun, "2640 cells") && contains(gun, " particles")) << gun;
+}
+
+TEST(RunCommand, AFailureIsToldOnce) {
+  const fs::path directory = scratch();
+  const fs::path file = write_text(directory / "ball.toml",
+                                   "geometry = \"plane\"\ncell_size = \"10 mm\"\nend_time = \"1 ms\"\n"
+                                   "[gas]\nlower = [0, 0]\nupper = [\"0.3 m\", \"0.2 m\"]\n"
+                                   "[[gas.fluid]]\nname = \"air\"\nmaterial = \"air.toml\"\n"
+                                   "[[gas.fill]]\ntemperature = \"300 K\"\npressure = \"1 atm\"\n"
+                                   "[[gas.body]]\nname = \"ball\"\nvelocity = [\"300 m/s\", 0]\n"
+                                   "shape = { sphere = { centre = [\"0.2 m\", \"0.1 m\"], radius = \"50 mm\" } }\n" +
+                                       no_figures);
+  const Answer a = call({"run", file.string(), "-o", (directory / "run").string()});
+  EXPECT_EQ(a.code, failed_while_running);
+  EXPECT_TRUE(contains(a.err, "body ball: it runs into the wall high_x")) << a.err;
+  EXPECT_TRUE(contains(a.err, "last checkpoint: ")) << "of the state before";
+  EXPECT_FALSE(contains(a.out, "it runs into")) << a.out;
+  EXPECT_TRUE(contains(text_of(directory / "run" / "log.txt"), "it runs into the wall"));
+  EXPECT_TRUE(contains(text_of(directory / "run" / "summary.json"), "it runs into the wall"));
 }
 
 TEST(DescribeCommand, ExplainsKeysAndSuggestsNearOnes) {
