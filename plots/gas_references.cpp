@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -193,22 +194,27 @@ void add_woodward_colella(Tables& all) {
 
 // Detonations ---------------------------------------------------------------------------------------------------------
 
-/// Lit by products in the state of Chapman and Jouguet at a wall, which then stay behind the front; or of products that come in
-/// at that state, behind which nothing else is.
+/// What is behind the front of a detonation in the state of Chapman and Jouguet.
+enum class Start {
+  wall,      // the wave of Taylor, from a wall
+  lit,       // products in that state, 2 mm of which have lit it at a wall, and then the wave of Taylor
+  supported  // the same, and products that come in at that state
+};
 void add_detonation(Tables& all, const std::string& name, const std::string& explosive, const eos::JonesWilkinsLee& products,
-                    double time, bool supported) {
-  constexpr double lit = 2e-3, upper = 90e-3, atmosphere = 101325.0;
+                    double time, Start start) {
+  constexpr double upper = 90e-3, atmosphere = 101325.0;
+  const double lit = start == Start::wall ? 0.0 : 2e-3;
   const ChapmanJouguet cj = tangent(products);
+  constexpr std::array words = {"from a wall, with the wave of Taylor",
+                                "lit by 2 mm of that state at a wall: they are behind the front, then comes the wave of Taylor",
+                                "products come in at that state"};
   Table table{
       fmt::format("Detonation of {} in the state of Chapman and Jouguet of its products (D = {:.1f} m/s, {:.3f} GPa) at "
                   "t = {:g} s, {}; no reaction zone",
-                  explosive, cj.velocity, 1e-9 * cj.pressure, time,
-                  supported ? "products come in at that state"
-                            : "lit by 2 mm of that state at a wall: they are behind the front, then comes the wave of "
-                              "Taylor"),
+                  explosive, cj.velocity, 1e-9 * cj.pressure, time, words[static_cast<std::size_t>(start)]),
       along_x};
   const GasState behind{cj.density, cj.particle_velocity, cj.pressure};
-  if (supported) {
+  if (start == Start::supported) {
     table.rows.push_back(row(0.0, behind));
   } else {
     const std::vector<WaveState> wave = taylor_wave(products);
@@ -222,11 +228,13 @@ void add_detonation(Tables& all, const std::string& name, const std::string& exp
 }
 
 void add_detonations(Tables& all) {
-  const auto add = [&](const std::string& name, const std::string& explosive, const eos::JonesWilkinsLee& products, double time,
-                       bool supported) { add_detonation(all, "detonation_" + name, explosive, products, time, supported); };
-  add("pbx_9501", "PBX 9501", {1838.0, 1668.9e9, 59.69e9, 5.9, 2.1, 0.45, 594.96, 9.499985e9}, 9e-6, false);
-  add("composition_b", "Composition B", {1717.0, 524.2e9, 7.678e9, 4.2, 1.1, 0.34, 1000.0, 8.5e9}, 10e-6, true);
-  add("tnt", "TNT", {1630.0, 371.2e9, 3.231e9, 4.15, 0.95, 0.30, 1000.0, 7.0e9}, 11.5e-6, true);
+  const eos::JonesWilkinsLee pbx_9501{1838.0, 1668.9e9, 59.69e9, 5.9, 2.1, 0.45, 594.96, 9.499985e9},
+      composition_b{1717.0, 524.2e9, 7.678e9, 4.2, 1.1, 0.34, 1000.0, 8.5e9},
+      tnt{1630.0, 371.2e9, 3.231e9, 4.15, 0.95, 0.30, 1000.0, 7.0e9};
+  add_detonation(all, "detonation_pbx_9501", "PBX 9501", pbx_9501, 9e-6, Start::lit);
+  add_detonation(all, "program_burn_pbx_9501", "PBX 9501", pbx_9501, 9e-6, Start::wall);
+  add_detonation(all, "detonation_composition_b", "Composition B", composition_b, 10e-6, Start::supported);
+  add_detonation(all, "detonation_tnt", "TNT", tnt, 11.5e-6, Start::supported);
 }
 
 // Smooth flows --------------------------------------------------------------------------------------------------------

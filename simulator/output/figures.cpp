@@ -165,6 +165,7 @@ void draw_gas_energy(const Case& c, const Simulation& s, const Path& directory) 
     if (edge.kind != EdgeKind::periodic) add("through " + edge.name, edge.name + "_energy");
   for (const gas::Burn& burn : s.gas.burns) add("heat of " + burn.name, burn.name + "_heat");
   for (const gas::MovingBody& body : s.gas.bodies.all) add("work of " + body.name, body.name + "_work", -1.0);
+  if (s.gas.gravity != Vector{}) add("work of gravity", "gravity_energy");
   add("in no book", "gas_residual_energy");
   // It often equals one of what it is made of: it is dashed, so that both are seen.
   curves.push_back({"total, change", {}, std::move(change), Mark::dashed});
