@@ -374,8 +374,11 @@ TEST(RiemannProblem, AtRandomHasThePlateauOfTheExactSolution) {
   constexpr int cells = 400, least_plateau = 10;
   constexpr double close = 0.02;  // of the pressure; of the larger of velocity and sound speed
   constexpr double h = 1.0 / cells;
-  int compared = 0, failures = 0;
-  double worst_pressure = 0.0, worst_velocity = 0.0;
+  // What a plateau is small against: behind a fan in which the pressure falls to a hundredth 2 % of it are 2e-4 of the pressure
+  // before it; in a liquid they are a change of 4e-5 of p_infinity, and of the density by a hundred-thousandth.
+  constexpr double deep_fan = 0.01, soft = 2e-3;  // of the pressure before it; of p_infinity
+  int compared = 0, failures = 0, plain = 0, plain_failures = 0;
+  double worst_pressure = 0.0, worst_velocity = 0.0, worst_of_drive = 0.0;
   while (compared < problems) {
     std::array<StiffenedGas, 2> gas_of;
     std::array<GasState, 2> state;
@@ -428,7 +431,12 @@ TEST(RiemannProblem, AtRandomHasThePlateauOfTheExactSolution) {
     const double off_pressure = std::abs(pressure / p - 1.0),
                  off_velocity = std::abs(velocity - u) / std::max(std::abs(u), sound);
     worst_pressure = std::max(worst_pressure, off_pressure), worst_velocity = std::max(worst_velocity, off_velocity);
+    const double highest = std::max(state[0].pressure, state[1].pressure);
+    worst_of_drive = std::max(worst_of_drive, std::abs(pressure - p) / std::max(highest, p));
+    const bool small = p < deep_fan * highest || p < soft * std::max(gas_of[0].p_infinity, gas_of[1].p_infinity);
+    if (!small) ++plain;
     if (!trouble.empty() || !(off_pressure < close) || !(off_velocity < close)) {
+      if (!small) ++plain_failures;
       if (++failures <= 20)
         std::cout << "problem " << compared << " " << trouble << ": p " << pressure << " for " << p << ", u " << velocity
                   << " for " << u << "; " << gas_of[0].gamma << " " << state[0].density << " " << state[0].velocity << " "
@@ -436,9 +444,15 @@ TEST(RiemannProblem, AtRandomHasThePlateauOfTheExactSolution) {
                   << state[1].pressure << "\n";
     }
   }
-  // The goal is none. Nine of 60 miss: the plateau is a few dozen cells wide there, or a liquid is torn.
+  // The goal is none. All that miss are small against what drives the flow, and are right by that measure.
   constexpr double known = 0.15;
   EXPECT_LE(failures, known * compared) << "of " << compared;
+  EXPECT_EQ(plain_failures, 0) << "of " << plain;
+  EXPECT_LT(worst_of_drive, close);
+  EXPECT_GT(plain, compared / 3);
+  RecordProperty("missed", std::to_string(failures) + "; of " + std::to_string(plain) + " that are not small " +
+                               std::to_string(plain_failures) + "; worst of the highest pressure " +
+                               std::to_string(worst_of_drive));
   RecordProperty("worst", std::to_string(worst_pressure) + ", velocity " + std::to_string(worst_velocity));
 }
 
