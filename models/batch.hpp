@@ -32,7 +32,8 @@ struct Point {
   Real melting_temperature{0.0};          // K; infinite when the material has no melting law
   Real bulk_modulus{0.0};                 // Pa, isentropic tangent
   Real trial_pressure{0.0};               // Pa
-  Real artificial_viscosity{0.0};         // Pa, to be added to the pressure in forces
+  Real artificial_viscosity_before{0.0};  // Pa
+  Real artificial_viscosity{0.0};         // Pa, to be added to the pressure in forces; comes as it was
   SymmetricTensor<Real> deviator;         // Pa; before the step, then trial, then returned
   SymmetricTensor<Real> deviator_before;  // Pa
   Real flow_stress{0.0};                  // Pa, of the matrix

@@ -163,9 +163,11 @@ void cavitation(const M& material, Batch<Real>& batch) {
 
 template <class M, class Real>
 void artificial_viscosity(const M& material, Batch<Real>& batch) {
-  for (Point<Real>& p : batch)
+  for (Point<Real>& p : batch) {
+    p.artificial_viscosity_before = p.artificial_viscosity;
     p.artificial_viscosity = material.artificial_viscosity(p.state.density, p.cell_size, sqrt(p.bulk_modulus / p.state.density),
                                                            trace(p.velocity_gradient));
+  }
 }
 
 namespace detail {
@@ -310,7 +312,8 @@ void heating(const M& material, Batch<Real>& batch) {
         const Real volume_change = 1.0 / s.density - 1.0 / p.density_before;
         p.warming = heating.taylor_quinney(s.plastic_strain) * per_heat;
         Real other_heat = p.released_heat + p.heat;
-        if (heating.viscous) other_heat = other_heat - p.artificial_viscosity * volume_change;
+        if (heating.viscous)
+          other_heat = other_heat - 0.5 * (p.artificial_viscosity_before + p.artificial_viscosity) * volume_change;
         s.temperature = s.temperature + p.warming * p.plastic_work / s.density + per_heat * other_heat;
       }
     });
@@ -341,7 +344,8 @@ void pressure(const M& material, Batch<Real>& batch) {
       const Real deviatoric_work =
           double_dot(p.deviator_before + p.deviator, p.strain_increment) / (s.density + p.density_before);
       const Real energy_but_p =
-          s.energy + p.heat + deviatoric_work - (0.5 * p.pressure_before + p.artificial_viscosity) * volume_change;
+          s.energy + p.heat + deviatoric_work -
+          0.5 * (p.pressure_before + p.artificial_viscosity_before + p.artificial_viscosity) * volume_change;
       if constexpr (Law::caloric == Caloric::incremental)
         p.pressure = p.pressure_before + law.pressure(rho, s.energy) - law.pressure(p.metal_density_before, s.energy);
       else

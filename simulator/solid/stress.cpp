@@ -83,6 +83,7 @@ void read_point(const Particles& ps, int chunk, double cell_size, Pack& p) {
   p.velocity_gradient = read_tensor<D>(ps.gradient.chunk(chunk));
   p.cell_size = Lanes(cell_size);
   p.heat = Lanes(0.0);
+  p.artificial_viscosity = read(load, L::Load::artificial_viscosity);
   p.state.stress = read_stress<D>(load + L::Load::stress * chunk_size);
   p.state.density = read(load, L::Load::density);
   p.state.deformation_gradient = read_tensor<D>(rest + L::Rest::deformation_gradient * chunk_size);
@@ -110,7 +111,8 @@ void write_point(Particles& ps, int chunk, const Pack& p) {
   const Lanes shape = double_dot(p.deviator_before + p.deviator, p.strain_increment) / (p.state.density + p.density_before);
   const Lanes bulk = -0.5 * (p.pressure_before + p.pressure) * volume_change;
   write(rest, L::Rest::stress_work, read(rest, L::Rest::stress_work) + shape + bulk);
-  write(rest, L::Rest::viscous_work, read(rest, L::Rest::viscous_work) - p.artificial_viscosity * volume_change);
+  write(rest, L::Rest::viscous_work,
+        read(rest, L::Rest::viscous_work) - 0.5 * (p.artificial_viscosity_before + p.artificial_viscosity) * volume_change);
   write(rest, L::Rest::plastic_work, read(rest, L::Rest::plastic_work) + p.plastic_work / p.state.density);
 }
 

@@ -460,6 +460,26 @@ void list_leavers(const Simulation& s, const Eight& eight, const std::array<Lane
   list(!stays, moved), list(out, left);
 }
 
+/// A velocity gradient with respect to places x as one with respect to x + t v(x). Its components as the columns of tensors; an
+/// affine field in the plane has none across it.
+template <int D, std::size_t components>
+std::array<Lanes, components> referred(const std::array<Lanes, components>& l, double t) {
+  Tensor<Lanes> L;
+  if constexpr (D == 3) {
+    L = {l[0], l[1], l[2], l[3], l[4], l[5], l[6], l[7], l[8]};
+  } else {
+    L.xx = l[0], L.xy = l[1], L.yx = l[2], L.yy = l[3];
+    if constexpr (components == 5) L.zz = l[4];
+  }
+  L = L * inverse(Tensor<Lanes>::identity() + Lanes(t) * L);
+  if constexpr (D == 3)
+    return {L.xx, L.xy, L.xz, L.yx, L.yy, L.yz, L.zx, L.zy, L.zz};
+  else if constexpr (components == 5)
+    return {L.xx, L.xy, L.yx, L.yy, L.zz};
+  else
+    return {L.xx, L.xy, L.yx, L.yy};
+}
+
 template <Geometry G, Basis basis>
 void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, ParticleTally& tally,
                std::vector<std::vector<std::uint32_t>>& moved, std::vector<std::vector<std::uint32_t>>& left) {
@@ -482,8 +502,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
 
   for_each_share(s, tile, [&](std::size_t number, Body& body, const Bin& bin) {
     Particles& ps = body.particles;
-    const double heat =
-        filter_heats(s, body) ? 0.5 * beta * (2.0 - beta) : 0.0;  // of the square of what is relative to the grid
+    const double heat = filter_heats(s, body) ? 0.5 * std::expm1(2.0 * step.dt / filter_time(s)) : 0.0;
     CellMeans<D> pressures;
     if (external) pressures = cell_pressures<D>(body, bin, tile.position, h);
     for_each_eight(
@@ -506,15 +525,17 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
           const Lanes booked = eight.only_used(m);
           for (int a = 0; a < D; ++a) {
             const Lanes v_grid = grid.value[Channel::velocity + a], dv = grid.value[Channel::change + a];
-            const Lanes v_flip = v[a] + dv, relative = v_flip - v_grid, filtered = -beta * relative;
+            const Lanes v_flip = v[a] + dv, filtered = beta * (v_grid - v_flip);
             v_new[a] = v_flip + filtered;
-            filter_heat += heat * booked * relative * relative;
             x_new[a] = x[a] + step.dt * v_grid;
             to.write(L::Motion::position + a, x_new[a]), to.write(L::Motion::velocity + a, v_new[a]);
             by_grid[a] = booked * dv, mean_by_grid[a] = v[a] + 0.5 * dv;
             by_filter[a] = booked * filtered, mean_by_filter[a] = v_flip + 0.5 * filtered;
             in_all[a] = booked * v_new[a], mean_in_all[a] = 0.5 * v_new[a];
             way[a] = x_new[a] - x[a];
+            // As the particle will reckon it, from where it has moved.
+            const Lanes relative = v_new[a] - way[a] / step.dt;
+            filter_heat += heat * booked * relative * relative;
           }
           flip.add(by_grid, x, mean_by_grid), filter.add(by_filter, x, mean_by_filter);
           state.add(in_all, x_new, mean_in_all), advection.add(in_all, way, Vec{});
@@ -525,12 +546,16 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
           const Lanes kept = select(alone, Lanes(kept_alone), Lanes(1.0));
           std::array<Square, D> affine_momentum;
           for (Square& along : affine_momentum) along.fill(Lanes(0.0));
+          std::array<Lanes, D * D> affine;
           for (int b = 0; b < D; ++b)
             for (int a = 0; a < D; ++a) {
               const Lanes C = aflip ? kept * Lanes(grid.slope[b][Channel::velocity + a]) / w.along[b].spread : Lanes(0.0);
-              to.write(L::Motion::affine + D * a + b, C);
               affine_momentum[b][Channel::momentum + a] = m * C;
+              affine[static_cast<std::size_t>(D * a + b)] = C;
             }
+          // It lasts into the next step, in which the particles are elsewhere.
+          affine = referred<D>(affine, step.dt);
+          for (int k = 0; k < D * D; ++k) to.write(L::Motion::affine + k, affine[static_cast<std::size_t>(k)]);
 
           if (external) {
             const Vec g = acceleration_fields(s, x);
@@ -583,7 +608,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
 }
 
 template <Geometry G, Basis basis>
-double gradients(Simulation& s, const TileView& tile) {
+double gradients(Simulation& s, const TileView& tile, double later) {
   constexpr int D = dimensions_of<G>;
   constexpr bool ring = G == Geometry::axisymmetric;
   constexpr int diagonal[] = {0, D == 3 ? 4 : 3, D == 3 ? 8 : 4};
@@ -617,6 +642,7 @@ double gradients(Simulation& s, const TileView& tile) {
                      for (std::size_t a = 0; a < D; ++a)
                        for (std::size_t b = 0; b < D; ++b) of.gradient[D * a + b] = grid.slope[b][Channel::velocity + a];
                      if constexpr (ring) of.gradient[4] = grid.hoop[Channel::velocity];
+                     if (later != 0.0) of.gradient = referred<D>(of.gradient, later);
                      if (body.locking_cure)
                        rates.add(eight, of.cells, load[L::Load::mass] / load[L::Load::density], trace_of(of.gradient));
                      found.push_back(of);
@@ -648,8 +674,9 @@ double filter_time(const Simulation& s) {
 }
 
 bool filter_heats(const Simulation& s, const Body& body) {
+  constexpr double least = 0.1;  // filter time: a faster one leaves round-off of the velocity that would tell the heat
   return s.numerics.particle_velocity == ParticleVelocity::aflip && s.numerics.stress_timing != StressTiming::usf &&
-         !body.stress;
+         s.numerics.filter_time >= least && !body.stress;
 }
 
 Vector acceleration_field(const Simulation& s, const Vector& position) {
@@ -683,11 +710,11 @@ ParticleResult grid_to_particles(Simulation& s, const ParticleStep& step) {
   return result;
 }
 
-double velocity_gradients(Simulation& s) {
+double velocity_gradients(Simulation& s, double later) {
   const Timed timed(s.times, Phase::velocity_gradients);
   std::vector<double> largest(s.grid.my_tiles.size());
   with_kernel(s, [&]<Geometry G, Basis basis>() {
-    parallel_for_blocks(largest.size(), [&](std::size_t i) { largest[i] = gradients<G, basis>(s, view(s.grid, i)); });
+    parallel_for_blocks(largest.size(), [&](std::size_t i) { largest[i] = gradients<G, basis>(s, view(s.grid, i), later); });
   });
   return s.domain->maximum(largest.empty() ? 0.0 : *std::max_element(largest.begin(), largest.end()));
 }

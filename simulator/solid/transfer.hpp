@@ -30,9 +30,10 @@ struct ParticleResult {
 /// Velocities, positions and affine fields at the end of the step into `next_motion`; nothing of the state is overwritten.
 ParticleResult grid_to_particles(Simulation& s, const ParticleStep& step);
 
-/// The velocity gradient at every particle from the velocities of the grid, its volume change averaged over each cell for the
-/// bodies that ask for it. Returns the largest |L| (1/s).
-double velocity_gradients(Simulation& s);
+/// The velocity gradient at every particle from the velocities of the grid, with respect to the places that these velocities
+/// lead to in a time `later` (s; negative: that they have come from); its volume change averaged over each cell for the bodies
+/// that ask for it. Returns the largest |L| (1/s).
+double velocity_gradients(Simulation& s, double later = 0.0);
 
 /// Time constant (s) of AFLIP's filter of the particle velocities.
 double filter_time(const Simulation& s);

@@ -90,6 +90,53 @@ TEST(RigidRotation, OfTheGridTurnsStressAndMakesNone) {
       }
 }
 
+/// Particles that nothing pushes fly apart with v = A X, so F = 1 + A t. A step takes the exponential of the gradient in its
+/// middle: of second order. The gradient on the places where the step starts would be of first.
+TEST(HomogeneousMotion, DeformsParticlesAsTheyMove) {
+  constexpr double A[3][3] = {{0.5, 0.2, -0.1}, {-0.3, -0.4, 0.2}, {0.1, 0.3, 0.2}};
+  const auto error = [&]<int D>(Geometry g, StressTiming timing, int steps) {
+    using L = Layout<D>;
+    const bool ring = g == Geometry::axisymmetric;
+    Case c;
+    c.geometry = g, c.cell_size = 0.1, c.numerics.stress_timing = timing;
+    c.bodies.push_back(by_hand::body("ball", by_hand::elastic_material(1000.0, 1000.0, 0.3), by_hand::shape(Sphere{{}, 0.25})));
+    Simulation s = set_up(c);
+    s.bodies[0].stress = [](Body&, int) {};
+    s.bodies[0].material.bulk_modulus = 1.0;
+    Particles& ps = s.bodies[0].particles;
+    const auto rate = [&](int a, int b) { return ring && a != b ? 0.0 : A[a][b]; };
+    for (int p = 0; p < ps.size; ++p)
+      for (int a = 0; a < D; ++a) {
+        double v = 0.0;
+        for (int b = 0; b < D; ++b) v += rate(a, b) * by_hand::position(ps, p)[static_cast<std::size_t>(b)];
+        ps.motion.at(L::Motion::velocity + a, p) = v;
+        for (int b = 0; b < D; ++b) ps.motion.at(L::Motion::affine + D * a + b, p) = rate(a, b);
+      }
+    ps.pad();
+    constexpr double end = 0.5;
+    for (int i = 0; i < steps; ++i) EXPECT_EQ(advance(s, end / steps), StepOutcome::done);
+    double worst = 0.0;
+    for (int p = 0; p < ps.size; ++p) {
+      for (int a = 0; a < D; ++a)
+        for (int b = 0; b < D; ++b)
+          worst =
+              std::max(worst, std::abs(ps.rest.at(L::Rest::deformation_gradient + D * a + b, p) - (a == b) - rate(a, b) * end));
+      if (ring) worst = std::max(worst, std::abs(ps.rest.at(L::Rest::deformation_gradient + 4, p) - 1.0 - A[0][0] * end));
+    }
+    return worst;
+  };
+  for (const StressTiming timing : {StressTiming::musl, StressTiming::usl})
+    for (const Geometry g : {Geometry::plane, Geometry::axisymmetric, Geometry::three_dimensional}) {
+      const auto of = [&](int steps) {
+        return g == Geometry::three_dimensional ? error.operator()<3>(g, timing, steps) : error.operator()<2>(g, timing, steps);
+      };
+      const double coarse = of(10), fine = of(20);
+      std::printf("homogeneous motion: F errs by %.1e and %.1e, order %.2f\n", coarse, fine, std::log2(coarse / fine));
+      EXPECT_LT(fine, 1e-4);
+      EXPECT_GT(std::log2(coarse / fine), 1.9);
+    }
+}
+
 // A free ring spins. Equilibrium, d(r sigma_rr)/dr = sigma_tt - rho omega^2 r^2 with free edges, gives the integral of the hoop
 // stress over the section: that of rho omega^2 r^2. A sudden start makes the ring breathe with the period 2 pi R/c; the mean
 // over time does not.
@@ -230,10 +277,11 @@ Collision collide(double h, ParticleVelocity v) {
 }
 
 TEST(CollidingDisks, ReboundWithTheirEnergyUnderFlip) {
-  // Errors of time and space are of first order here: the contact is a matter of single cells.
+  // A prototype in another language measured -0.4 % with the coarse grid. What is left is in proportion to the step: MUSL
+  // takes the strain from velocities before, and the forces from those after the particles have moved.
   const Collision coarse = collide(0.05, ParticleVelocity::flip), fine = collide(0.025, ParticleVelocity::flip);
-  EXPECT_LT(std::abs(coarse.energy_change), 0.01);
-  EXPECT_LT(std::abs(fine.energy_change), 0.005);
+  EXPECT_LT(std::abs(coarse.energy_change), 0.005);
+  EXPECT_LT(std::abs(fine.energy_change), 0.003);
   EXPECT_EQ(fine.books.filter, 0.0);
 }
 TEST(CollidingDisks, LoseUnderAflipWhatTheFilterBooks) {

@@ -32,18 +32,26 @@ TEST(MoltenBar, AtRestStaysAtRest) {
   }
 }
 
+const std::string coarse = "1.27 mm", fine = "0.635 mm";  // three and six cells in the radius
+
 /// The mass, the highest and the lowest place, and whether every number is finite.
-struct Fast : testing::TestWithParam<std::tuple<const char*, double>> {};
+struct Fast : testing::TestWithParam<std::tuple<const char*, double, std::string>> {};
 
 TEST_P(Fast, BarRunsToItsEndOnAWall) {
-  const auto [name, speed] = GetParam();
-  Simulation s = set_up(shipped_case(name, {"cell_size=1.27 mm", "solid.0.velocity=[0,-" + std::to_string(speed) + "]"}));
+  const auto [name, speed, cell_size] = GetParam();
+  Simulation s = set_up(shipped_case(name, {"cell_size=" + cell_size, "solid.0.velocity=[0,-" + std::to_string(speed) + "]"}));
   const double energy = s.ledger.initial.energy;
   run_until(s, 40e-6);
   expect_closed_books(s);
   const Balance b = balance(s.ledger, internal_energy(s));
-  constexpr double of_the_numerics = 0.05;  // of the peak of the kinetic energy, on a grid of three cells in the radius
-  EXPECT_LT(std::abs(b.numerical()), of_the_numerics * energy);
+  std::printf("%s at %.0f m/s, %s: numerical books %.2f %% of the kinetic energy\n", name, speed, cell_size.c_str(),
+              100.0 * b.numerical() / energy);
+  // Of the peak of the kinetic energy, on the fine grid. The affine motion of a particle keeps the width of its kernel where
+  // the metal is squeezed: that gives m h^2 tr(L^3)/4 per time, up to 9 % of all on the coarse one.
+  constexpr double of_the_numerics = 0.03;
+  if (cell_size == fine) {
+    EXPECT_LT(std::abs(b.numerical()), of_the_numerics * energy);
+  }
   EXPECT_LT(s.ledger.state.energy, energy);
   const Particles& ps = s.bodies[0].particles;
   double fastest = 0.0;
@@ -59,7 +67,7 @@ TEST_P(Fast, BarRunsToItsEndOnAWall) {
 
 INSTANTIATE_TEST_SUITE_P(Metals, Fast,
                          testing::Combine(testing::Values("taylor_copper_190_mts", "taylor_4340_208_johnson_cook"),
-                                          testing::Values(500.0, 1000.0, 2000.0)));
+                                          testing::Values(500.0, 1000.0, 2000.0), testing::Values(coarse, fine)));
 
 }  // namespace
 }  // namespace brisance::simulator

@@ -99,7 +99,7 @@ void step_by_hand(Simulation& s, const Mutation& forget = {}, int work_forgotten
   ParticleResult particles = grid_to_particles(s, {dt, dt_velocity, true});
   share();
   velocities_from_momentum(s, Touch::as_accelerated, s.time + 0.5 * dt);
-  velocity_gradients(s);
+  velocity_gradients(s, 0.5 * dt);
   Particles& ps = s.bodies[0].particles;
   const ColumnSet before = ps.rest;
   update_stress(s, dt, &Particles::next_motion);

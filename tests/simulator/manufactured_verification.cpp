@@ -211,21 +211,21 @@ double error(int cells, ParticleVelocity particle_velocity, double end) {
 
 }  // namespace standing_waves
 
-/// The order is that of the particles' quadrature as well as the grid's: between h = 1/8 and 1/16 FLIP has 1.87 with three
+/// The order is that of the particles' quadrature as well as the grid's: between h = 1/8 and 1/16 FLIP has 1.88 with three
 /// particles per direction and 1.94 with five; half the time step changes it by 0.02.
-void expect_standing_waves(ParticleVelocity v, int cells) {
+void expect_standing_waves(ParticleVelocity v, int cells, double least_order) {
   const double end = 0.5 / standing_waves::c;  // a quarter of the period
   const double coarse = standing_waves::error(cells, v, end), fine = standing_waves::error(2 * cells, v, end);
   const double order = std::log2(coarse / fine);
   std::printf("standing waves: error %.3e at h = 1/%d, %.3e at half of that, order %.2f\n", coarse, cells, fine, order);
-  EXPECT_GE(order, 1.8);
+  EXPECT_GE(order, least_order);
   EXPECT_LE(fine, 0.05 * standing_waves::amplitude);
 }
 TEST(StandingWaves, ConvergeInThreeDimensionsWithFlip) {
-  expect_standing_waves(ParticleVelocity::flip, 8);
+  expect_standing_waves(ParticleVelocity::flip, 8, 1.85);
 }
 TEST(StandingWaves, ConvergeInThreeDimensionsWithAflip) {
-  expect_standing_waves(ParticleVelocity::aflip, 4);
+  expect_standing_waves(ParticleVelocity::aflip, 4, 1.9);
 }
 
 }  // namespace
