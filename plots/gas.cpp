@@ -560,7 +560,7 @@ std::vector<Entry> entries() {
                  "gas.body.0.shape.union.1.sphere.centre=" + at(36.0, shift + end),
                  "gas.body.1.shape.union.0.box.upper=" + at(44.0, shift - end),
                  "gas.body.1.shape.union.1.sphere.centre=" + at(36.0, shift - end),
-                 fmt::format("title=Chamber with a slot, {:g} cells", cells)};
+                 fmt::format("title=Chamber with a slot, {:g} cell{}", cells, cells > 1.0 ? "s" : "")};
     const Measure flow = flow_through(slot);
     watched("vented_chamber", "", chamber(slot),
             cells < 2.0 ? std::vector<Goal>{{"flow through the slot over the choked flow", reported, flow}}

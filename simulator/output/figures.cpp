@@ -1,7 +1,6 @@
 #include "simulator/output/figures.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,20 +81,20 @@ bool is_mirrored(const Simulation& s, int axis) {
 }
 
 /// Curves of a quantity against time. Those that would lie on the axis, and what is below `noise`, are not drawn; the title
-/// tells the largest values of the first of them, unless they are zero all the time.
+/// tells the largest values of the largest of them, unless they are zero all the time.
 Panel against_time(const std::string& title, std::string_view quantity, const std::vector<double>& time,
                    std::vector<Curve> curves, Unit unit, double noise = 0.0) {
   const Scale times = scale_for("s", largest(time));
   double most = 0.0;
   for (const Curve& curve : curves) most = std::max(most, largest(curve.y));
-  const Scale scale = scale_for(unit.text, most);
+  const Scale scale = most > noise ? scale_for(unit.text, most) : Scale{1.0, std::string(unit.text)};
   Panel panel;
-  std::vector<std::string> small;
-  constexpr double visible = 0.005;  // a pixel or two
+  std::vector<std::pair<double, std::string>> small;  // by their peaks
+  constexpr double visible = 0.005;                   // a pixel or two
   for (Curve& curve : curves) {
     const double peak = largest(curve.y);
     if (peak < visible * most || peak <= noise) {
-      if (peak > 0.0) small.push_back(fmt::format("{} {}", curve.title, in_words(peak, unit.text, 3)));
+      if (peak > 0.0) small.emplace_back(peak, fmt::format("{} {}", curve.title, in_words(peak, unit.text, 3)));
       continue;
     }
     curve.x = scaled(time, times.per_si), curve.y = scaled(std::move(curve.y), scale.per_si);
@@ -103,12 +102,12 @@ Panel against_time(const std::string& title, std::string_view quantity, const st
   }
   if (panel.curves.empty() && !curves.empty())  // nothing happens
     panel.curves.push_back({curves.back().title, scaled(time, times.per_si), std::vector<double>(time.size(), 0.0)});
-  constexpr std::size_t most_told = 3;
+  constexpr std::size_t most_told = 2;
+  std::stable_sort(small.begin(), small.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   const std::size_t told = std::min(small.size(), most_told);
   panel.title = title;
-  if (told > 0)
-    panel.title +=
-        fmt::format("{}not drawn: {}", title.empty() ? "" : "; ", fmt::join(small.begin(), small.begin() + told, ", "));
+  for (std::size_t k = 0; k < told; ++k)
+    panel.title += (k > 0 ? ", " : title.empty() ? "not drawn: " : "; not drawn: ") + small[k].second;
   if (small.size() > told) panel.title += fmt::format(" and {} smaller", small.size() - told);
   panel.x_label = label("time", times), panel.y_label = label(quantity, scale);
   if (largest(time) > 0.0) panel.x_range = {{0.0, times.per_si * largest(time)}};
