@@ -19,15 +19,6 @@ class Describer : public KeyDescriber<Describer> {
   using KeyDescriber<Describer>::describe;
 
   template <class K>
-  void describe(const std::string& path, const K& key, const std::optional<int>&) {
-    add(path, key, "a whole number, " + brisance::describe(key.interval));
-  }
-  template <class K, class Enum>
-  requires std::is_enum_v<Enum>
-  void describe(const std::string& path, const K& key, const std::optional<Enum>&) {
-    add(path, key, "one of " + listed(choices<Enum>), "", choices<Enum>);
-  }
-  template <class K>
   void describe(const std::string& path, const K& key, const OpenTable&) {
     add(path, key, "a table [" + path + ']');
   }
@@ -39,9 +30,6 @@ class Describer : public KeyDescriber<Describer> {
   void describe(const std::string& path, const K& key, const GeneralTable&) {
     add(path, key, "a table of some of xx, xy, xz, yx, yy, yz, zx, zy, zz, each " + numbers(key));
   }
-  template <class K, class File>
-  requires HasKeys<File>
-  void describe(const std::string& path, const K& key, const std::optional<File>&) { describe(path, key, File{}); }
 
   template <class K>
   void add_tables(const std::string& path, const K& key) {

@@ -404,17 +404,6 @@ class FileReader : public KeyReader<FileReader> {
   using KeyReader<FileReader>::read_value;
 
   template <class K>
-  void read_value(TableReader& in, const K& key, std::optional<int>& value) {
-    read_value(in, key, value.emplace());
-  }
-  template <class K, class Enum>
-  requires std::is_enum_v<Enum>
-  void read_value(TableReader& in, const K& key, std::optional<Enum>& value) {
-    const std::size_t before = in.problem_count();
-    read_value(in, key, value.emplace());
-    if (in.problem_count() > before) value.reset();
-  }
-  template <class K>
   void read_value(TableReader& in, const K& key, OpenTable& value) {
     value = in.table(key.name, key.meaning);
   }
@@ -425,9 +414,6 @@ class FileReader : public KeyReader<FileReader> {
     else
       value = in.tables(key.name);
   }
-  template <class K, class File>
-  requires HasKeys<File>
-  void read_value(TableReader& in, const K& key, std::optional<File>& value) { read_value(in, key, value.emplace()); }
   template <class K, class File>
   requires HasKeys<File>
   void read_value(TableReader& in, const K& key, std::vector<File>& value) {

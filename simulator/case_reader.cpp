@@ -76,11 +76,6 @@ class CaseReader : public KeyReader<CaseReader> {
     value = in.choice<Enum>(key.name);
     if constexpr (std::is_same_v<Enum, Geometry>) geometry_known_ = in.problem_count() == before;
   }
-  template <class K, class T>
-  requires(std::is_enum_v<T> || std::is_same_v<T, bool>) void read_value(TableReader& in, const K& key,
-                                                                         std::optional<T>& value) {
-    read_value(in, key, value.emplace());
-  }
   template <class K>
   void read_value(TableReader& in, const K& key, Vector& value) {
     // Without a geometry two components are as good as three.
@@ -110,17 +105,9 @@ class CaseReader : public KeyReader<CaseReader> {
       read_value(in, key, value.translation);
   }
   template <class K>
-  void read_value(TableReader& in, const K& key, std::optional<StrengthDistribution>& value) {
-    value = read_struct<StrengthDistribution>(in.table(key.name));
-  }
-  template <class K>
   void read_value(TableReader& in, const K& key, std::optional<InitialPorosity>& value) {
     TableReader table = in.table(key.name);
     read_law(table, value.emplace());
-  }
-  template <class K>
-  void read_value(TableReader& in, const K& key, std::optional<ProfileConfig>& value) {
-    value = read_struct<ProfileConfig>(in.table(key.name));
   }
   template <class K>
   void read_value(TableReader& in, const K& key, std::optional<GasConfig>& value) {

@@ -14,12 +14,6 @@ class Describer : public KeyDescriber<Describer> {
   friend KeyDescriber<Describer>;
   using KeyDescriber<Describer>::describe;
 
-  template <class K, class T>
-  requires(std::is_enum_v<T> || std::is_same_v<T, bool>) void describe(const std::string& path, const K& key,
-                                                                       const std::optional<T>&) {
-    describe(path, key, T{});
-    rows_.back().default_value = "";
-  }
   template <class K>
   void describe(const std::string& path, const K& key, const std::filesystem::path&) {
     add(path, key, "the name of a file");
@@ -93,20 +87,6 @@ class Describer : public KeyDescriber<Describer> {
   void describe(const std::string& path, const K& key, const InitialVelocity&) {
     add(path, key, "components, each " + numbers(key) + "; or a table", "0");
     describe_all<InitialVelocity>(path);
-  }
-  template <class K>
-  void describe(const std::string& path, const K& key, const std::optional<StrengthDistribution>&) {
-    add(path, key, "a table");
-    describe_all<StrengthDistribution>(path);
-  }
-  template <class K>
-  void describe(const std::string& path, const K& key, const std::optional<ProfileConfig>&) {
-    add(path, key, "a table");
-    describe_all<ProfileConfig>(path);
-  }
-  template <class K>
-  void describe(const std::string& path, const K& key, const std::optional<GasConfig>&) {
-    describe(path, key, GasConfig{});
   }
 };
 

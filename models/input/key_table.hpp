@@ -116,6 +116,16 @@ class KeyReader {
     TableReader table = in.table(key.name, key.meaning);
     read_keys(table, value);
   }
+  // What may be absent is read as what it is of; a word or number that is wrong counts as absent.
+  template <class K, class Config>
+  requires HasKeys<Config>
+  void read_value(TableReader& in, const K& key, std::optional<Config>& value) { self().read_value(in, key, value.emplace()); }
+  template <class K, class T>
+  requires(std::is_enum_v<T> || std::is_integral_v<T>) void read_value(TableReader& in, const K& key, std::optional<T>& value) {
+    const std::size_t before = in.problem_count();
+    self().read_value(in, key, value.emplace());
+    if (in.problem_count() > before) value.reset();
+  }
 };
 
 // Describing -------------------------------------------------------------------------------------------------------------
@@ -214,6 +224,17 @@ class KeyDescriber {
   void describe(const std::string& path, const K& key, const std::vector<Config>&) {
     add(path, key, "a list of tables [[" + path + "]]");
     self().template describe_all<Config>(path);
+  }
+
+  // What may be absent has no default.
+  template <class K, class Config>
+  requires HasKeys<Config>
+  void describe(const std::string& path, const K& key, const std::optional<Config>&) { self().describe(path, key, Config{}); }
+  template <class K, class T>
+  requires(std::is_enum_v<T> || std::is_integral_v<T>) void describe(const std::string& path, const K& key,
+                                                                     const std::optional<T>&) {
+    self().describe(path, key, T{});
+    rows_.back().default_value = "";
   }
 
   std::vector<KeyDescription> rows_;

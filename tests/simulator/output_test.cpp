@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <sstream>
@@ -34,6 +36,22 @@ namespace {
 Case small_case(const fs::path& directory, const std::string& more = "") {
   return read_case(write_text(directory / "bar.toml", small_bar(more)));
 }
+
+/// A run of the small bar, with more in its case, for so many steps.
+struct SmallRun {
+  Case c;
+  fs::path directory;
+  Simulation s;
+  RunResult result;
+
+  explicit SmallRun(const std::string& more, std::int64_t most_steps = std::numeric_limits<std::int64_t>::max(),
+                    const std::function<void(Simulation&)>& spoil = {})
+      : c(small_case(scratch(), more)), directory(c.file.parent_path() / "run"), s(set_up(c)) {
+    if (spoil) spoil(s);
+    prepare_directory(directory, c, false);
+    result = run(c, s, {directory, {}, most_steps});
+  }
+};
 
 TEST(Snapshot, HasWhatAVtkhdfReaderAsksFor) {
   const fs::path directory = scratch();
@@ -354,16 +372,13 @@ TEST(GridSnapshot, ChangesNothingOfTheRunAndIsTheSameAfterARestart) {
 }
 
 TEST(Report, TellsWhichSnapshotsAreDamagedOrMissing) {
-  const fs::path directory = scratch(), run_directory = directory / "run";
-  const Case c = small_case(directory, "[output]\nfigures = false\ngrid = true\nsnapshot_interval = \"2 us\"\n");
-  Simulation s = set_up(c);
-  prepare_directory(run_directory, c, false);
-  ASSERT_EQ(run(c, s, {run_directory, {}}).ending, Ending::done);
-  EXPECT_EQ(report(c, s, run_directory).message, "");
-  fs::resize_file(run_directory / "bar_particles_000001.hdf", 5000);
-  fs::remove(run_directory / "bar_particles_000002.hdf");
-  fs::resize_file(run_directory / "solid_grid_000003.vti", 2000);
-  const std::string message = report(c, s, run_directory).message;
+  SmallRun r("[output]\nfigures = false\ngrid = true\nsnapshot_interval = \"2 us\"\n");
+  ASSERT_EQ(r.result.ending, Ending::done);
+  EXPECT_EQ(report(r.c, r.s, r.directory).message, "");
+  fs::resize_file(r.directory / "bar_particles_000001.hdf", 5000);
+  fs::remove(r.directory / "bar_particles_000002.hdf");
+  fs::resize_file(r.directory / "solid_grid_000003.vti", 2000);
+  const std::string message = report(r.c, r.s, r.directory).message;
   EXPECT_NE(message.find("bar_particles_000001.hdf: is damaged"), std::string::npos) << message;
   EXPECT_NE(message.find("bar_particles_000002.hdf: cannot be read"), std::string::npos) << message;
   EXPECT_NE(message.find("solid_grid_000003.vti: is damaged"), std::string::npos) << message;
@@ -371,13 +386,10 @@ TEST(Report, TellsWhichSnapshotsAreDamagedOrMissing) {
 }
 
 TEST(History, TellsTheEnergiesOfTheWholeBarAndNotOfARadian) {
-  const fs::path directory = scratch();
-  const Case c = small_case(directory, "[output]\nfigures = false\n");
-  Simulation s = set_up(c);
-  prepare_directory(directory / "run", c, false);
-  ASSERT_EQ(run(c, s, {directory / "run", {}, 5}).ending, Ending::interrupted);
-  const CsvFile history = CsvFile::load(directory / "run" / "history.csv");
-  const double volume = std::numbers::pi * 3.2e-3 * 3.2e-3 * 12e-3, mass = c.bodies[0].material.material.density * volume;
+  const SmallRun r("[output]\nfigures = false\n", 5);
+  ASSERT_EQ(r.result.ending, Ending::interrupted);
+  const CsvFile history = CsvFile::load(r.directory / "history.csv");
+  const double volume = std::numbers::pi * 3.2e-3 * 3.2e-3 * 12e-3, mass = r.c.bodies[0].material.material.density * volume;
   constexpr double rounding = 1e-12;
   EXPECT_NEAR(history.numbers("mass", Unit::kg)[0] / mass, 1.0, rounding);
   EXPECT_NEAR(history.numbers("kinetic_energy", Unit::J)[0] / (0.5 * mass * 190.0 * 190.0), 1.0, rounding);
@@ -550,71 +562,54 @@ TEST(LineOut, TheReferenceIsReadInItsUnitsAndMustHoldSomethingThatIsDrawn) {
 }
 
 TEST(Figures, AreDrawnAndTheCasesOwnAmongThem) {
-  const fs::path directory = scratch();
-  const Case c = small_case(directory, "[[measure]]\nkind = \"final_length\"\n" +
-                                           line_figure("fields = [\"velocity\", \"stress_yy\"]\nfrom = [\"1 mm\", 0]\n"
-                                                       "to = [\"1 mm\", \"12 mm\"]\n"));
-  Simulation s = set_up(c);
-  prepare_directory(directory / "run", c, false);
-  run(c, s, {directory / "run", {}, 5});
-  EXPECT_EQ(draw_figures(c, s, directory / "run"), std::vector<std::string>{});
+  const SmallRun r(
+      "[[measure]]\nkind = \"final_length\"\n" + line_figure("fields = [\"velocity\", \"stress_yy\"]\nfrom = [\"1 mm\", 0]\n"
+                                                             "to = [\"1 mm\", \"12 mm\"]\n"),
+      5);
+  EXPECT_EQ(draw_figures(r.c, r.s, r.directory), std::vector<std::string>{});
   for (const char* name : {"energy.png", "field.png", "profile_bar.png", "line_a.png"})
-    EXPECT_TRUE(text_of(directory / "run" / name).starts_with("\x89PNG")) << name;
+    EXPECT_TRUE(text_of(r.directory / name).starts_with("\x89PNG")) << name;
 }
 
 TEST(Gates, ARunThatExceedsOneStopsAndSaysWhich) {
-  const fs::path directory = scratch();
-  const Case c = small_case(directory, "[gates]\nfastest = \"150 m/s\"\n[output]\nfigures = false\n");
-  Simulation s = set_up(c);
-  prepare_directory(directory / "run", c, false);
-  const RunResult result = run(c, s, {directory / "run", {}});
-  EXPECT_EQ(result.ending, Ending::failed);
-  EXPECT_NE(result.message.find("gate fastest"), std::string::npos) << result.message;
-  EXPECT_NE(result.message.find("190"), std::string::npos) << result.message;
-  EXPECT_NE(text_of(directory / "run" / "summary.json").find("\"ending\": \"failed\""), std::string::npos);
+  const SmallRun r("[gates]\nfastest = \"150 m/s\"\n[output]\nfigures = false\n");
+  EXPECT_EQ(r.result.ending, Ending::failed);
+  EXPECT_NE(r.result.message.find("gate fastest"), std::string::npos) << r.result.message;
+  EXPECT_NE(r.result.message.find("190"), std::string::npos) << r.result.message;
+  EXPECT_NE(text_of(r.directory / "summary.json").find("\"ending\": \"failed\""), std::string::npos);
 }
 
 TEST(Gates, NumericalEnergyBeyondItsLimitStopsTheRunAfterACheckpoint) {
-  const fs::path directory = scratch();
-  const Case c = small_case(
-      directory, "[gates]\nnumerical = 1e-6\n[output]\nfigures = false\ncheckpoint_steps = 1\nhistory_interval = \"0.2 us\"\n");
-  Simulation s = set_up(c);
-  prepare_directory(directory / "run", c, false);
-  const RunResult result = run(c, s, {directory / "run", {}});
-  EXPECT_EQ(result.ending, Ending::failed);
-  EXPECT_NE(result.message.find("gate numerical"), std::string::npos) << result.message;
-  EXPECT_NE(result.message.find("last checkpoint: " + (directory / "run").string()), std::string::npos) << result.message;
+  const SmallRun r(
+      "[gates]\nnumerical = 1e-6\n[output]\nfigures = false\ncheckpoint_steps = 1\nhistory_interval = \"0.2 us\"\n");
+  EXPECT_EQ(r.result.ending, Ending::failed);
+  EXPECT_NE(r.result.message.find("gate numerical"), std::string::npos) << r.result.message;
+  EXPECT_NE(r.result.message.find("last checkpoint: " + r.directory.string()), std::string::npos) << r.result.message;
 }
 
 TEST(Run, ATimeStepBelowTheLeastOneStopsIt) {
-  const fs::path directory = scratch();
-  const Case c = small_case(directory, "[numerics]\nleast_step = \"0.5 us\"\n[output]\nfigures = false\n");
-  Simulation s = set_up(c);
-  prepare_directory(directory / "run", c, false);
-  const RunResult result = run(c, s, {directory / "run", {}});
-  EXPECT_EQ(result.ending, Ending::failed);
-  EXPECT_NE(result.message.find("less than 5e-07 s"), std::string::npos) << result.message;
-  EXPECT_NE(result.message.find("the speed of waves"), std::string::npos) << result.message;
+  const SmallRun r("[numerics]\nleast_step = \"0.5 us\"\n[output]\nfigures = false\n");
+  EXPECT_EQ(r.result.ending, Ending::failed);
+  EXPECT_NE(r.result.message.find("less than 5e-07 s"), std::string::npos) << r.result.message;
+  EXPECT_NE(r.result.message.find("the speed of waves"), std::string::npos) << r.result.message;
 }
 
 TEST(Run, AStepThatCannotBeTakenNamesTheParticleAndLeavesTheLastGoodState) {
-  const fs::path directory = scratch();
-  const Case c = small_case(directory, "[output]\nfigures = false\n");
-  Simulation s = set_up(c);
   constexpr int spoilt = 100;
-  Particles& ps = s.bodies[0].particles;
-  const std::string name = "particle " + std::to_string(ps.id[spoilt]) + " of bar at (";
-  ps.load.at(Layout<2>::Load::stress, spoilt) = std::numeric_limits<double>::quiet_NaN();
-  prepare_directory(directory / "run", c, false);
-  const RunResult result = run(c, s, {directory / "run", {}});
-  EXPECT_EQ(result.ending, Ending::failed);
-  EXPECT_EQ(s.step, 0) << "a state that is not a number is never accepted";
+  std::string name;
+  const SmallRun r("[output]\nfigures = false\n", 1000, [&](Simulation& s) {
+    Particles& ps = s.bodies[0].particles;
+    name = "particle " + std::to_string(ps.id[spoilt]) + " of bar at (";
+    ps.load.at(Layout<2>::Load::stress, spoilt) = std::numeric_limits<double>::quiet_NaN();
+  });
+  EXPECT_EQ(r.result.ending, Ending::failed);
+  EXPECT_EQ(r.s.step, 0) << "a state that is not a number is never accepted";
   for (const char* fact :
        {"larger ones were rejected", "|L| is inf", name.c_str(), "temperature 298", "plastic strain 0", "kg/m^3"})
-    EXPECT_NE(result.message.find(fact), std::string::npos) << fact << " in " << result.message;
-  EXPECT_TRUE(has_checkpoint(directory / "run"));
-  EXPECT_NE(result.message.find("last checkpoint: "), std::string::npos) << result.message;
-  EXPECT_TRUE(fs::exists(directory / "run" / "bar_particles_000000.hdf"));
+    EXPECT_NE(r.result.message.find(fact), std::string::npos) << fact << " in " << r.result.message;
+  EXPECT_TRUE(has_checkpoint(r.directory));
+  EXPECT_NE(r.result.message.find("last checkpoint: "), std::string::npos) << r.result.message;
+  EXPECT_TRUE(fs::exists(r.directory / "bar_particles_000000.hdf"));
 }
 
 TEST(StepSize, IsThePartOfACellThatAWaveTakes) {
@@ -639,13 +634,8 @@ TEST(StepSize, IsThePartOfACellThatAWaveTakes) {
 }
 
 TEST(Summary, IsWellFormedAndTellsMeasuresByName) {
-  const fs::path directory = scratch();
-  const Case c =
-      small_case(directory, "[[measure]]\nkind = \"final_length\"\nmeasured = \"10 mm\"\n[output]\nfigures = false\n");
-  Simulation s = set_up(c);
-  prepare_directory(directory / "run", c, false);
-  run(c, s, {directory / "run", {}, 2});
-  const std::string text = text_of(directory / "run" / "summary.json");
+  const SmallRun r("[[measure]]\nkind = \"final_length\"\nmeasured = \"10 mm\"\n[output]\nfigures = false\n", 2);
+  const std::string text = text_of(r.directory / "summary.json");
   EXPECT_NE(text.find("\"measures\": {\n    \"final_length\": 0.01"), std::string::npos) << text;
   EXPECT_NE(text.find("\"measured\": 0.01,\n      \"deviation\": 0."), std::string::npos) << text;
   EXPECT_EQ(std::count(text.begin(), text.end(), '{'), std::count(text.begin(), text.end(), '}'));

@@ -129,14 +129,31 @@ TEST(ABodyThatRunsIntoAWall, EndsTheRunBeforehandAndIsNamed) {
     });
 }
 
+/// Nothing passes the axis, so nothing is shared across it: the gas leaves along it.
+TEST(ARingThatClosesOnTheAxis, PushesItsGasAlongIt) {
+  Simulation s;
+  s.geometry = Geometry::axisymmetric;
+  MovingBody ring = set_up::body_of(Geometry::axisymmetric, h, {0.0, 0.1, 0.0}, 0.2,
+                                    [](const Vector& x) { return x[0] > 0.06 && x[0] < 0.12 && std::abs(x[1]) < 0.04; });
+  ring.name = "ring", ring.motion.radius = 0.06;
+  ring.motion.radial_velocity = [](double) { return -200.0; };
+  s.gas = air_around({ring}, Geometry::axisymmetric, *s.domain);
+  EXPECT_EQ(end_of(s.gas, 0.29e-3, *s.domain), "");
+  const GasBooks books = books_of(s).gas.value();
+  EXPECT_LT(std::abs(books.residual().mass[0]), 1e-12 * books.state.mass[0]);
+  EXPECT_LT(std::abs(books.residual().energy), 1e-12 * books.state.energy);
+}
+
 TEST(TwoBodiesThatMeet, EndTheRunAndAreNamed) {
-  const auto domain = single_process();
-  Gas gas = air_around(
-      {moving_ball("anvil", {0.25, 0.1, 0.0}, 0.05, {}), moving_ball("ball", {0.1, 0.1, 0.0}, 0.04, {100.0, 0.0, 0.0})},
-      Geometry::plane, *domain);
-  const std::string message = end_of(gas, 1e-3, *domain);
-  EXPECT_NE(message.find("body anvil: it runs into body ball"), std::string::npos) << message;
-  EXPECT_NEAR(gas.time, 0.06 / 100.0, h / 100.0) << "their surfaces are 6 cells apart";
+  for (const int ranks : {1, 3})
+    VirtualRanks::run(ranks, [&](std::shared_ptr<Domain> domain) {
+      Gas gas = air_around(
+          {moving_ball("anvil", {0.25, 0.1, 0.0}, 0.05, {}), moving_ball("ball", {0.1, 0.1, 0.0}, 0.04, {100.0, 0.0, 0.0})},
+          Geometry::plane, *domain);
+      const std::string message = end_of(gas, 1e-3, *domain);
+      EXPECT_NE(message.find("body anvil: it runs into body ball"), std::string::npos) << message;
+      EXPECT_NEAR(gas.time, 0.06 / 100.0, h / 100.0) << "their surfaces are 6 cells apart";
+    });
 }
 
 /// Along a wall, away from it, through it where the body reaches beyond the box, past another body.
