@@ -270,7 +270,7 @@ void advance_batch(const Simulation& s, Body& body, int first_chunk, int chunks,
                    Batch<Lanes>& batch, LaneExtremes& extremes, Failing& failing) {
   Particles& ps = body.particles;
   batch.size = chunks, batch.time = s.time + dt;
-  const bool heats = filter_heats(s, body) && &velocities == &ps.next_motion;
+  const bool heats = filter_heats(s, body, dt) && &velocities == &ps.next_motion;
   for (int c = 0; c < chunks; ++c) {
     Pack& p = batch.points[static_cast<std::size_t>(c)];
     read_point<D>(ps, first_chunk + c, s.grid.cell_size, p);

@@ -502,7 +502,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
 
   for_each_share(s, tile, [&](std::size_t number, Body& body, const Bin& bin) {
     Particles& ps = body.particles;
-    const double heat = filter_heats(s, body) ? 0.5 * std::expm1(2.0 * step.dt / filter_time(s)) : 0.0;
+    const double heat = filter_heats(s, body, step.dt) ? 0.5 * std::expm1(2.0 * step.dt / filter_time(s)) : 0.0;
     CellMeans<D> pressures;
     if (external) pressures = cell_pressures<D>(body, bin, tile.position, h);
     for_each_eight(
@@ -534,8 +534,10 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
             in_all[a] = booked * v_new[a], mean_in_all[a] = 0.5 * v_new[a];
             way[a] = x_new[a] - x[a];
             // As the particle will reckon it, from where it has moved.
-            const Lanes relative = v_new[a] - way[a] / step.dt;
-            filter_heat += heat * booked * relative * relative;
+            if (heat > 0.0) {
+              const Lanes relative = v_new[a] - way[a] / step.dt;
+              filter_heat += heat * booked * relative * relative;
+            }
           }
           flip.add(by_grid, x, mean_by_grid), filter.add(by_filter, x, mean_by_filter);
           state.add(in_all, x_new, mean_in_all), advection.add(in_all, way, Vec{});
@@ -673,10 +675,10 @@ double filter_time(const Simulation& s) {
   return s.numerics.filter_time * s.grid.cell_size / s.extremes.wave_speed;
 }
 
-bool filter_heats(const Simulation& s, const Body& body) {
+bool filter_heats(const Simulation& s, const Body& body, double dt) {
   constexpr double least = 0.1;  // filter time: a faster one leaves round-off of the velocity that would tell the heat
   return s.numerics.particle_velocity == ParticleVelocity::aflip && s.numerics.stress_timing != StressTiming::usf &&
-         s.numerics.filter_time >= least && !body.stress;
+         s.numerics.filter_time >= least && !body.stress && dt > 0.0;
 }
 
 Vector acceleration_field(const Simulation& s, const Vector& position) {

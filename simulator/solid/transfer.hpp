@@ -37,9 +37,9 @@ double velocity_gradients(Simulation& s, double later = 0.0);
 
 /// Time constant (s) of AFLIP's filter of the particle velocities.
 double filter_time(const Simulation& s);
-/// Whether the velocity that the filter takes from a body's particles, relative to the grid, becomes heat in them. With usf the
-/// stress has been updated before the filter acts.
-bool filter_heats(const Simulation& s, const Body& body);
+/// Whether the velocity that the filter takes from a body's particles in a step of dt (s), relative to the grid, becomes heat
+/// in them. With usf the stress has been updated before the filter acts.
+bool filter_heats(const Simulation& s, const Body& body, double dt);
 
 /// Force on a particle per mass from gravity and body force (m/s^2).
 Vector acceleration_field(const Simulation& s, const Vector& position);
