@@ -63,11 +63,11 @@ inline void fetch(const Bins& bins, std::size_t place, std::initializer_list<Wan
   }
 }
 
-/// Calls f(eight) for the particles of a bin. What is wanted of the next eight is on its way from memory meanwhile.
+/// Calls f(eight) for the particles of a bin. What is wanted of those after the next eight is on its way from memory meanwhile.
 template <class F>
 void for_each_eight(const Bins& bins, const Bin& bin, std::initializer_list<Wanted> wanted, F&& f) {
   for (std::uint32_t first = bin.begin; first < bin.end; first += 8) {
-    fetch(bins, first + 8, wanted);
+    fetch(bins, first + 16, wanted);
     f(Eight(bins, first, bin.end));
   }
 }

@@ -24,6 +24,7 @@ void make_sets(Particles& p) {
   p.load = ColumnSet(L::Load::count);
   p.rest = ColumnSet(L::Rest::count + p.history_columns + p.area_columns + (p.has_strength ? 1 : 0));
   p.gradient = ColumnSet(L::tensor_components);
+  p.filter_heat = ColumnSet(1);
 }
 
 template <int D>
@@ -90,7 +91,7 @@ int Particles::strength() const {
 
 void Particles::resize(int particles) {
   size = particles;
-  for (ColumnSet* s : {&motion, &next_motion, &load, &rest, &gradient}) s->resize(particles);
+  for (ColumnSet* s : {&motion, &next_motion, &load, &rest, &gradient, &filter_heat}) s->resize(particles);
   id.resize(static_cast<std::size_t>(particles));
   block.resize(static_cast<std::size_t>(particles));
   if (!second_field.empty()) second_field.resize(static_cast<std::size_t>(particles));
@@ -121,7 +122,7 @@ void Particles::pad() {
 std::size_t Particles::bytes() const {
   std::size_t sum =
       id.capacity() * sizeof(id[0]) + block.capacity() * sizeof(block[0]) + second_field.capacity() * sizeof(second_field[0]);
-  for (const ColumnSet* s : {&motion, &next_motion, &load, &rest, &gradient}) sum += s->bytes();
+  for (const ColumnSet* s : {&motion, &next_motion, &load, &rest, &gradient, &filter_heat}) sum += s->bytes();
   return sum;
 }
 

@@ -86,6 +86,7 @@ struct Particles {
   ColumnSet next_motion;      // at its end, until the step is accepted
   ColumnSet load, rest;
   ColumnSet gradient;                       // velocity gradient of the step, 1/s
+  ColumnSet filter_heat;                    // what AFLIP's filter makes of motion in the step, J/kg
   std::vector<std::uint64_t> id;            // from the creation lattice
   std::vector<BlockKey> block;              // that holds the nearest node
   std::vector<std::uint32_t> second_field;  // bit n: at node n of its stencil the particle is in the body's second field

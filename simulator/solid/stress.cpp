@@ -14,7 +14,6 @@
 #include "simulator/domain/message.hpp"
 #include "simulator/parallel.hpp"
 #include "simulator/solid/packs.hpp"
-#include "simulator/solid/transfer.hpp"
 #include "simulator/solid/worst_particle.hpp"
 #include "simulator/table.hpp"
 
@@ -82,7 +81,7 @@ void read_point(const Particles& ps, int chunk, double cell_size, Pack& p) {
   const double *load = ps.load.chunk(chunk), *rest = ps.rest.chunk(chunk);
   p.velocity_gradient = read_tensor<D>(ps.gradient.chunk(chunk));
   p.cell_size = Lanes(cell_size);
-  p.heat = Lanes(0.0);
+  p.heat = read(ps.filter_heat.chunk(chunk), 0);
   p.artificial_viscosity = read(load, L::Load::artificial_viscosity);
   p.state.stress = read_stress<D>(load + L::Load::stress * chunk_size);
   p.state.density = read(load, L::Load::density);
@@ -182,21 +181,6 @@ Extremes over_all_ranks(Domain& domain, const Extremes& e) {
           domain.maximum(e.volume_rate), domain.maximum(e.filling)};
 }
 
-/// Heat per mass (J/kg) of AFLIP's filter over the step: the kinetic energy, relative to the grid, of the velocity that it
-/// takes. It leaves the part exp(-dt/filter time) of what was there; where a particle has moved tells the grid's velocity.
-template <int D>
-Lanes filter_heat(const Particles& ps, int chunk, double dt, double filter_time) {
-  using L = Layout<D>;
-  const double *before = ps.motion.chunk(chunk), *after = ps.next_motion.chunk(chunk);
-  Lanes square(0.0);
-  for (int a = 0; a < D; ++a) {
-    const Lanes way = read(after, L::Motion::position + a) - read(before, L::Motion::position + a);
-    const Lanes relative = read(after, L::Motion::velocity + a) - way / dt;
-    square += relative * relative;
-  }
-  return 0.5 * std::expm1(2.0 * dt / filter_time) * square;
-}
-
 /// The particle that a material could not advance.
 struct Failing {
   Trouble trouble = Trouble::none;
@@ -270,12 +254,8 @@ void advance_batch(const Simulation& s, Body& body, int first_chunk, int chunks,
                    Batch<Lanes>& batch, LaneExtremes& extremes, Failing& failing) {
   Particles& ps = body.particles;
   batch.size = chunks, batch.time = s.time + dt;
-  const bool heats = filter_heats(s, body, dt) && &velocities == &ps.next_motion;
-  for (int c = 0; c < chunks; ++c) {
-    Pack& p = batch.points[static_cast<std::size_t>(c)];
-    read_point<D>(ps, first_chunk + c, s.grid.cell_size, p);
-    if (heats) p.heat = filter_heat<D>(ps, first_chunk + c, dt, filter_time(s));
-  }
+  for (int c = 0; c < chunks; ++c)
+    read_point<D>(ps, first_chunk + c, s.grid.cell_size, batch.points[static_cast<std::size_t>(c)]);
   update(body.material, batch, dt);
   for (int c = 0; c < chunks; ++c) {
     Pack& p = batch.points[static_cast<std::size_t>(c)];
@@ -374,7 +354,7 @@ Extremes look_at_all(const Simulation& s) {
       Pack& p = batch->points[0];
       batch->size = 1, batch->time = s.time;
       read_point<D>(body.particles, c, s.grid.cell_size, p);
-      p.velocity_gradient = {};
+      p.velocity_gradient = {}, p.heat = Lanes(0.0);
       constexpr double any_time = 1e-9;
       update(body.material, *batch, any_time);
       look<D>(s, body, c, p.state.density, p.bulk_modulus, p.state.shear_modulus, body.particles.motion, all);

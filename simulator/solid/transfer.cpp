@@ -480,6 +480,13 @@ std::array<Lanes, components> referred(const std::array<Lanes, components>& l, d
     return {L.xx, L.xy, L.yx, L.yy};
 }
 
+/// Whether the velocity that AFLIP's filter takes from a body's particles, relative to the grid, becomes heat in them. With usf
+/// the stress has been updated before the filter acts.
+bool filter_heats(const Simulation& s, const Body& body) {
+  return s.numerics.particle_velocity == ParticleVelocity::aflip && s.numerics.stress_timing != StressTiming::usf &&
+         !body.stress;
+}
+
 template <Geometry G, Basis basis>
 void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, ParticleTally& tally,
                std::vector<std::vector<std::uint32_t>>& moved, std::vector<std::vector<std::uint32_t>>& left) {
@@ -489,7 +496,8 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
   using Vec = std::array<Lanes, D>;
   const double h = s.grid.cell_size;
   const bool aflip = s.numerics.particle_velocity == ParticleVelocity::aflip;
-  const double beta = aflip ? -std::expm1(-step.dt / filter_time(s)) : 0.0;
+  const double filter_time = s.numerics.filter_time * h / s.extremes.wave_speed;
+  const double beta = aflip ? -std::expm1(-step.dt / filter_time) : 0.0;
   const bool external = s.has_external_forces();
   constexpr double anothers_mass = 1e-3;  // relative to its own, that a particle alone may see
   const double kept_alone = std::exp(-step.dt * s.extremes.wave_speed / h);
@@ -502,7 +510,8 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
 
   for_each_share(s, tile, [&](std::size_t number, Body& body, const Bin& bin) {
     Particles& ps = body.particles;
-    const double heat = filter_heats(s, body, step.dt) ? 0.5 * std::expm1(2.0 * step.dt / filter_time(s)) : 0.0;
+    const double into_heat =
+        filter_heats(s, body) ? 0.5 * beta * (2.0 - beta) : 0.0;  // of the square of what is relative to the grid
     CellMeans<D> pressures;
     if (external) pressures = cell_pressures<D>(body, bin, tile.position, h);
     for_each_eight(
@@ -510,7 +519,8 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
         {{ps.motion, L::Motion::position, 2 * D},
          {ps.load, L::Load::mass, 1},
          {ps.load, L::Load::half_width, 1},
-         {ps.next_motion, 0, L::Motion::count}},
+         {ps.next_motion, 0, L::Motion::count},
+         {ps.filter_heat, 0, 1}},
         [&](const Eight& eight) {
           const Columns from(ps.motion, eight), load(ps.load, eight);
           Columns to(ps.next_motion, eight);
@@ -522,10 +532,11 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
           Vec v_new, x_new;
           Vec by_grid, by_filter, in_all, mean_by_grid, mean_by_filter, mean_in_all,
               way;  // impulses, mean velocities
+          Lanes heat(0.0);
           const Lanes booked = eight.only_used(m);
           for (int a = 0; a < D; ++a) {
             const Lanes v_grid = grid.value[Channel::velocity + a], dv = grid.value[Channel::change + a];
-            const Lanes v_flip = v[a] + dv, filtered = beta * (v_grid - v_flip);
+            const Lanes v_flip = v[a] + dv, relative = v_flip - v_grid, filtered = -beta * relative;
             v_new[a] = v_flip + filtered;
             x_new[a] = x[a] + step.dt * v_grid;
             to.write(L::Motion::position + a, x_new[a]), to.write(L::Motion::velocity + a, v_new[a]);
@@ -533,12 +544,10 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
             by_filter[a] = booked * filtered, mean_by_filter[a] = v_flip + 0.5 * filtered;
             in_all[a] = booked * v_new[a], mean_in_all[a] = 0.5 * v_new[a];
             way[a] = x_new[a] - x[a];
-            // As the particle will reckon it, from where it has moved.
-            if (heat > 0.0) {
-              const Lanes relative = v_new[a] - way[a] / step.dt;
-              filter_heat += heat * booked * relative * relative;
-            }
+            heat += into_heat * relative * relative;
           }
+          Columns(ps.filter_heat, eight).write(0, heat);
+          filter_heat += booked * heat;
           flip.add(by_grid, x, mean_by_grid), filter.add(by_filter, x, mean_by_filter);
           state.add(in_all, x_new, mean_in_all), advection.add(in_all, way, Vec{});
           // A particle that has its nodes to itself learns nothing about a velocity gradient from them: it would get
@@ -670,16 +679,6 @@ double gradients(Simulation& s, const TileView& tile, double later) {
 }
 
 }  // namespace
-
-double filter_time(const Simulation& s) {
-  return s.numerics.filter_time * s.grid.cell_size / s.extremes.wave_speed;
-}
-
-bool filter_heats(const Simulation& s, const Body& body, double dt) {
-  constexpr double least = 0.1;  // filter time: a faster one leaves round-off of the velocity that would tell the heat
-  return s.numerics.particle_velocity == ParticleVelocity::aflip && s.numerics.stress_timing != StressTiming::usf &&
-         s.numerics.filter_time >= least && !body.stress && dt > 0.0;
-}
 
 Vector acceleration_field(const Simulation& s, const Vector& position) {
   return s.body_force ? s.gravity + s.body_force(position, s.time) : s.gravity;

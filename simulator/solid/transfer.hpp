@@ -35,12 +35,6 @@ ParticleResult grid_to_particles(Simulation& s, const ParticleStep& step);
 /// that ask for it. Returns the largest |L| (1/s).
 double velocity_gradients(Simulation& s, double later = 0.0);
 
-/// Time constant (s) of AFLIP's filter of the particle velocities.
-double filter_time(const Simulation& s);
-/// Whether the velocity that the filter takes from a body's particles in a step of dt (s), relative to the grid, becomes heat
-/// in them. With usf the stress has been updated before the filter acts.
-bool filter_heats(const Simulation& s, const Body& body, double dt);
-
 /// Force on a particle per mass from gravity and body force (m/s^2).
 Vector acceleration_field(const Simulation& s, const Vector& position);
 

@@ -284,13 +284,18 @@ TEST(CollidingDisks, ReboundWithTheirEnergyUnderFlip) {
   EXPECT_LT(std::abs(fine.energy_change), 0.003);
   EXPECT_EQ(fine.books.filter, 0.0);
 }
-TEST(CollidingDisks, LoseUnderAflipWhatTheFilterBooks) {
+TEST(CollidingDisks, LoseLittleUnderAflipMostOfWhatTheFilterTakesBeingHeat) {
   const Collision coarse = collide(0.05, ParticleVelocity::aflip), fine = collide(0.025, ParticleVelocity::aflip);
   for (const Collision& c : {coarse, fine}) {
     EXPECT_LT(c.energy_change, 0.0);
-    EXPECT_LT(c.books.filter, -0.4 * std::abs(c.energy_change)) << "the filter's part of the loss has a bin of its own";
+    EXPECT_LT(c.books.filter, -0.01) << "what the filter takes has a bin of its own";
+    EXPECT_GT(c.books.filter_heat, -0.8 * c.books.filter);
+    EXPECT_LT(c.books.filter_heat, -c.books.filter) << "heat is what is lost relative to the grid, not more";
   }
-  EXPECT_GT(fine.energy_change, coarse.energy_change) << "the loss falls with the cell size";
+  // Transfer and stress timing under AFLIP, of first order in the size of a cell: of disks of four and eight cells in the
+  // radius.
+  EXPECT_GT(coarse.energy_change, -0.04);
+  EXPECT_GT(fine.energy_change, -0.02);
 }
 
 /// A bar in uniaxial strain strikes a wall: stress rho c V, contact for 2 L/c, then it leaves with its velocity reversed.

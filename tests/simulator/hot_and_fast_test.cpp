@@ -46,12 +46,10 @@ TEST_P(Fast, BarRunsToItsEndOnAWall) {
   const Balance b = balance(s.ledger, internal_energy(s));
   std::printf("%s at %.0f m/s, %s: numerical books %.2f %% of the kinetic energy\n", name, speed, cell_size.c_str(),
               100.0 * b.numerical() / energy);
-  // Of the peak of the kinetic energy, on the fine grid. The affine motion of a particle keeps the width of its kernel where
-  // the metal is squeezed: that gives m h^2 tr(L^3)/4 per time, up to 9 % of all on the coarse one.
-  constexpr double of_the_numerics = 0.03;
-  if (cell_size == fine) {
-    EXPECT_LT(std::abs(b.numerical()), of_the_numerics * energy);
-  }
+  // Of the peak of the kinetic energy. The affine motion of a particle keeps the width of its kernel where the metal is
+  // squeezed: that gives m h^2 tr(L^3)/4 per time, up to 9 % of all on the coarse grid and a third of it on the fine one.
+  const double of_the_numerics = cell_size == fine ? 0.03 : 0.10;
+  EXPECT_LT(std::abs(b.numerical()), of_the_numerics * energy);
   EXPECT_LT(s.ledger.state.energy, energy);
   const Particles& ps = s.bodies[0].particles;
   double fastest = 0.0;
