@@ -23,25 +23,27 @@ std::size_t dimensions_of(const Case& c) {
   return static_cast<std::size_t>(c.dimensions());
 }
 
-/// A state that the fluid's law does not have.
-void check_exists(TableReader& in, const GasStateConfig& state, const Case& c) {
-  for (const FluidConfig& fluid : c.gas->fluids) {
-    if (fluid.name != state.fluid) continue;
-    namespace eos = equation_of_state;
-    const EquationOfState& law = fluid.material.material.equation_of_state;
-    if (eos::caloric(law) != eos::Caloric::complete) continue;
-    const double density = state.density ? *state.density : eos::density_at(law, *state.pressure, *state.temperature);
-    constexpr double close = 1e-3;
-    if (density > 0.0) {
-      const double energy = eos::energy_at_pressure(law, density, *state.pressure), p = eos::pressure(law, density, energy);
-      if (std::abs(p - *state.pressure) <= close * std::abs(*state.pressure)) continue;
-      in.problem("pressure", fmt::format("at {:.6g} kg/m^3 {} has no state with {:.6g} Pa; the nearest is {:.6g} Pa", density,
-                                         in_quotes(fluid.name), *state.pressure, p));
-    } else {
-      in.problem("pressure", fmt::format("{} has no state with {:.6g} Pa and {:.6g} K", in_quotes(fluid.name), *state.pressure,
-                                         *state.temperature));
-    }
-  }
+/// Why a fluid has no such state (density in kg/m^3 or, where there is none, temperature in K); empty: it has.
+std::string why_not(const FluidConfig& fluid, double pressure, std::optional<double> given, std::optional<double> temperature) {
+  namespace eos = equation_of_state;
+  const EquationOfState& law = fluid.material.material.equation_of_state;
+  if (eos::caloric(law) != eos::Caloric::complete) return "";
+  const double density = given ? *given : eos::density_at(law, pressure, *temperature);
+  if (!(density > 0.0))
+    return fmt::format("{} has no state with {:.6g} Pa and {:.6g} K", in_quotes(fluid.name), pressure, *temperature);
+  const double energy = eos::energy_at_pressure(law, density, pressure), p = eos::pressure(law, density, energy);
+  constexpr double close = 1e-3;
+  if (!(std::abs(p - pressure) <= close * std::abs(pressure)))
+    return fmt::format("at {:.6g} kg/m^3 {} has no state with {:.6g} Pa; the nearest is {:.6g} Pa", density,
+                       in_quotes(fluid.name), pressure, p);
+  if (!(eos::sound_speed_squared(law, density, energy) > 0.0))
+    return fmt::format("at {:.6g} kg/m^3 and {:.6g} Pa {} carries no sound", density, pressure, in_quotes(fluid.name));
+  return "";
+}
+const FluidConfig* find_fluid(const Case& c, std::string_view name) {
+  for (const FluidConfig& fluid : c.gas->fluids)
+    if (fluid.name == name) return &fluid;
+  return nullptr;
 }
 
 /// `elsewhere`: where else density and pressure come from; empty: nowhere.
@@ -71,11 +73,13 @@ void check_gas_state(TableReader& in, State& state, const Case& c, const Elsewhe
   } else if (state.density.has_value() == state.temperature.has_value())
     in.problem(state.density ? "there are a density and a temperature; give one of the two"
                              : "neither density nor temperature is given; give one of the two");
-  else if (state.pressure)
-    check_exists(in, state, c);
+  else if (const FluidConfig* fluid = find_fluid(c, state.fluid); fluid && state.pressure)
+    if (const std::string why = why_not(*fluid, *state.pressure, state.density, state.temperature); !why.empty())
+      in.problem("pressure", why);
 }
 
-void check_profile(TableReader& in, const ProfileConfig& profile, const Case& c, Elsewhere& elsewhere) {
+/// The profile of a fill; nothing if it cannot be read.
+std::optional<StateProfile> check_profile(TableReader& in, const ProfileConfig& profile, const Case& c, Elsewhere& elsewhere) {
   const bool radius = profile.along == ProfileAlong::radius;
   if (!radius && static_cast<std::size_t>(profile.along) >= dimensions_of(c))
     in.problem("profile", fmt::format("there is no {} in this geometry; give a coordinate that it has, or radius",
@@ -88,8 +92,30 @@ void check_profile(TableReader& in, const ProfileConfig& profile, const Case& c,
       in.problem("profile", "velocity_around needs the plane geometry and along = \"radius\"");
     if (!read.density.empty()) elsewhere.density = "the profile";
     if (!read.pressure.empty()) elsewhere.pressure = "the profile";
+    return read;
   } catch (const InputError& error) {
+    in.problem("profile", "its file cannot be used");
     in.add_problems(error.problems());
+    // What may stand in it is not missing.
+    if (!in.has("pressure")) elsewhere.pressure = "the profile";
+    if (!in.has("density") && !in.has("temperature")) elsewhere.density = "the profile";
+    return {};
+  }
+}
+
+/// The first row of a profile that makes a state which the fluid does not have.
+void check_rows(TableReader& in, const FillConfig& fill, const StateProfile& profile, const Case& c) {
+  const FluidConfig* fluid = find_fluid(c, fill.fluid);
+  if (!fluid || (profile.pressure.empty() && !fill.pressure) ||
+      (profile.density.empty() && fill.density.has_value() == fill.temperature.has_value()))
+    return;
+  for (std::size_t row = 0; row < profile.place.size(); ++row) {
+    const double pressure = profile.pressure.empty() ? *fill.pressure : profile.pressure[row];
+    const std::optional<double> density = profile.density.empty() ? fill.density : profile.density[row];
+    const std::string why = why_not(*fluid, pressure, density, fill.temperature);
+    if (why.empty()) continue;
+    in.problem("profile", fmt::format("row {}, at {:.6g} m: {}", row + 1, profile.place[row], why));
+    return;
   }
 }
 
@@ -149,7 +175,8 @@ void check(TableReader& in, FluidConfig& fluid, const std::vector<FluidConfig>& 
 
 void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& others, const Case& c) {
   Elsewhere elsewhere;
-  if (fill.profile) check_profile(in, *fill.profile, c, elsewhere);
+  std::optional<StateProfile> profile;
+  if (fill.profile) profile = check_profile(in, *fill.profile, c, elsewhere);
   if (fill.energy) {
     if (!elsewhere.pressure.empty()) in.problem("energy", "the pressure is in the profile; give one of the two");
     if (!fill.shape) in.problem("shape", "missing: the region that the energy is put into");
@@ -157,6 +184,7 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
     elsewhere.pressure = "the energy";
   }
   check_gas_state(in, fill, c, elsewhere);
+  if (profile && !fill.energy) check_rows(in, fill, *profile, c);
   if (others.empty() && fill.shape) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
 }
 

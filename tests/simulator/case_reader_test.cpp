@@ -29,6 +29,7 @@ const fs::path& folder() {
     std::ofstream(made / "reference.csv") << "y [mm],pressure [GPa]\n0,1\n10,0\n";
     std::ofstream(made / "bad_profile.csv") << "radius [mm],z [mm]\n5.5,0\n";
     std::ofstream(made / "swirl.csv") << "radius [mm],pressure [bar],velocity_around [m/s]\n0,1,0\n2,2,10\n2,3,0\n";
+    std::ofstream(made / "tension.csv") << "radius [mm],pressure [bar]\n0,1\n4,-200\n";
     std::ofstream(made / "falling.csv") << "radius [mm],density [kg/m^3]\n2,1\n0,1\n";
     std::ofstream(made / "empty.csv") << "radius [mm],density [kg/m^3]\n0,0\n";
     return made;
@@ -448,6 +449,11 @@ INSTANTIATE_TEST_SUITE_P(
         HostileGas{"kind = \"non_reflecting\"\nfluid = \"air\"\ntemperature = \"300 K\"\npressure = \"1 atm\"",
                    "kind = \"non_reflecting\"\nfluid = \"air\"\ndensity = \"1.2 kg/m^3\"\npressure = \"-1 atm\"",
                    "\"air\" has no state with -101325 Pa"},
+        HostileGas{"kind = \"non_reflecting\"\nfluid = \"air\"\ntemperature = \"300 K\"\npressure = \"1 atm\"",
+                   "kind = \"non_reflecting\"\nfluid = \"air\"\ndensity = \"1.2 kg/m^3\"\npressure = 0",
+                   "at 1.2 kg/m^3 and 0 Pa \"air\" carries no sound"},
+        HostileGas{"\"swirl.csv\"", "\"tension.csv\"", "gas.fill.2.profile: row 2, at 0.004 m: at 2 kg/m^3"},
+        HostileGas{"\"swirl.csv\"", "\"nowhere.csv\"", "gas.fill.2.profile: its file cannot be used"},
         HostileGas{"courant = 0.4\n", "acoustic_courant = 5\n", "it is the Courant number of implicit = true"},
         HostileGas{"courant = 0.4\n", "courant = 0.4\nimplicit = true\n", "the steps of implicit = true are those of acoustic"},
         HostileGas{"courant = 0.4\n", "momentum_exchange = 5\n", "have one velocity but with scheme = \"ice_classic\""},
