@@ -37,6 +37,43 @@ Vector position(const MovingBody& body, Geometry geometry, const MovingBody::Sta
   return body.centre + s.displacement + turned(s.turn, place);
 }
 
+/// The bodies in the states that `state_of` tells.
+template <class F>
+void put_on_nodes(Gas& gas, F&& state_of) {
+  std::vector<BodyPoints> points;
+  for (const MovingBody& body : gas.bodies.all)
+    points.push_back(points_of(body, gas.cells.geometry, state_of(body), state_of(body), 0.0));
+  put_on_nodes(gas.bodies.window, gas.cells, images_of(gas), points, gas.bodies.nodes);
+}
+
+/// After a restart as at the start: from where the bodies were then.
+void find_built_in(Gas& gas, Domain& domain) {
+  struct Sharing {
+    int first, second;
+    double fraction;
+  };
+  Bodies& bodies = gas.bodies;
+  const auto note = [&](const Sharing& s) {
+    double& most = bodies.built_in[{s.first, s.second}];
+    most = std::max(most, s.fraction);
+  };
+  bodies.built_in.clear();
+  if (bodies.all.size() < 2) return;
+  if (!bodies.window.empty()) {
+    put_on_nodes(gas, [](const MovingBody&) { return MovingBody::State{}; });
+    for_each_cell_of(bodies.nodes.touched, [&](const std::array<int, 3>& node) {
+      const std::size_t n = bodies.window.at(node);
+      const auto [first, second] = sharing_bodies(bodies.nodes, n);
+      const double fraction = shared_fraction(bodies.nodes, n);
+      if (fraction > 1.0) note({first, second, fraction});
+    });
+  }
+  Message mine;
+  for (const auto& [pair, fraction] : bodies.built_in) append(mine, Sharing{pair.first, pair.second, fraction});
+  for (const Message& message : all_gather(domain, mine))
+    for (MessageReader reader(message); !reader.at_end();) note(reader.read<Sharing>());
+}
+
 bool same(const MovingBody::State& a, const MovingBody::State& b) {
   return a.displacement == b.displacement && a.turn == b.turn && a.growth == b.growth;
 }
@@ -104,19 +141,11 @@ void place_bodies(Gas& gas, Domain& domain) {
   bodies.open.resize(gas.cells.blocks.size());
   for (std::size_t block = 0; block < gas.cells.blocks.size(); ++block)
     std::fill_n(bodies.open.at(block, 0), gas.cells.packs(), Lanes(1.0));
-  double overlap = 1.0;
-  if (!bodies.window.empty()) {
-    std::vector<BodyPoints> points;
-    for (const MovingBody& body : bodies.all)
-      points.push_back(points_of(body, gas.cells.geometry, body.state, body.state, 0.0));
-    put_on_nodes(bodies.window, gas.cells, images_of(gas), points, bodies.nodes);
-    find_open_space(bodies.window, gas.cells, bodies.nodes, bodies.space);
-    keep_open_parts(gas);
-    for_each_cell_of(bodies.nodes.touched, [&](const std::array<int, 3>& node) {
-      overlap = std::max(overlap, shared_fraction(bodies.nodes, bodies.window.at(node)));
-    });
-  }
-  bodies.overlap = domain.maximum(overlap);
+  find_built_in(gas, domain);
+  if (bodies.window.empty()) return;
+  put_on_nodes(gas, [](const MovingBody& body) { return body.state; });
+  find_open_space(bodies.window, gas.cells, bodies.nodes, bodies.space);
+  keep_open_parts(gas);
 }
 
 std::size_t bytes_of(const Bodies& bodies) {

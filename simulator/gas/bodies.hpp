@@ -4,8 +4,10 @@
 // (bodies_step.cpp).
 
 #include <functional>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "simulator/gas/redistribution.hpp"
 #include "simulator/ledger.hpp"
@@ -76,6 +78,9 @@ struct Bodies {
   CellSet open;                           // the part of each cell's volume that is gas; what the cell holds is per whole cell
   std::vector<CompensatedSum> entrapped;  // masses, momentum, energy of the last gas of cells that had nowhere to go
 
+  // Of pairs of bodies that are built into each other: the largest solid fraction of a node that they share, at the start.
+  std::map<std::pair<int, int>, double> built_in;
+
   // As the rank sees them:
   Window window;
   std::vector<Part> windows;  // of all ranks
@@ -84,8 +89,7 @@ struct Bodies {
   CutCells step;
   Neighbourhoods small;
   StepFields fields;
-  bool still = false;    // `step` is one in which nothing has moved
-  double overlap = 1.0;  // the largest solid fraction of a node that two bodies share, at the start
+  bool still = false;  // `step` is one in which nothing has moved
   // What the step under way would make of the bodies:
   std::vector<MovingBody::State> next;
   std::vector<Received> received;

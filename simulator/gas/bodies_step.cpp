@@ -716,11 +716,9 @@ std::int64_t remap(Gas& gas, double dt) {
 /// A pair of things that are about to meet, the first pair of all: of two bodies, or of a body and a side of the box.
 struct Meeting {
   static constexpr int none = std::numeric_limits<int>::max();
-  int code = none;
-  void note(int body, int what) { code = std::min(code, body * 4096 + what); }
-  int body() const { return code / 4096; }
-  int what() const { return code % 4096; }  // another body, or this and the number of a side:
-  static constexpr int first_side = 4000;
+  std::pair<int, int> pair{none, none};  // a body, and another one or a side
+  void note(const std::pair<int, int>& other) { pair = std::min(pair, other); }
+  static int of_side(std::size_t side) { return -1 - static_cast<int>(side); }
 };
 
 /// A body whose face closes in on a wall of the box, until a cell between them has so little gas that it would share it with
@@ -743,7 +741,7 @@ void note_meeting_with_wall(const Gas& gas, Meeting& meeting) {
         const int at = w.index(n)[a];
         return side % 2 == 0 ? at < gas.cells.lower[a] : at >= gas.cells.upper[a];
       });
-      if (beyond) meeting.note(c.body, Meeting::first_side + static_cast<int>(side));
+      if (beyond) meeting.note({c.body, Meeting::of_side(side)});
     }
   }
 }
@@ -751,12 +749,17 @@ void note_meeting_with_wall(const Gas& gas, Meeting& meeting) {
 /// Two bodies that push into each other: at a node they fill more than there is, and more than they did at the start.
 void note_meeting_of_bodies(const Gas& gas, Meeting& meeting) {
   const Bodies& bodies = gas.bodies;
+  const auto at_start = [&](const std::pair<int, int>& pair) {
+    const auto found = bodies.built_in.find(pair);
+    return found == bodies.built_in.end() ? 1.0 : found->second;
+  };
   constexpr double deeper = 0.1;
   for_each_cell_of(bodies.nodes.touched, [&](const Index& node) {
     const std::size_t n = bodies.window.at(node);
-    if (shared_fraction(bodies.nodes, n) > bodies.overlap + deeper)
-      meeting.note(std::min(bodies.nodes.body[n], bodies.nodes.other[n]),
-                   std::max(bodies.nodes.body[n], bodies.nodes.other[n]));
+    const double fraction = shared_fraction(bodies.nodes, n);
+    if (fraction == 0.0) return;
+    const std::pair<int, int> pair = sharing_bodies(bodies.nodes, n);
+    if (fraction > at_start(pair) + deeper) meeting.note(pair);
   });
 }
 
@@ -774,25 +777,26 @@ void note_bodies_around(const Bodies& bodies, const Index& cell, Meeting& meetin
     if (bodies.nodes.fraction[n] < solid) return;
     lowest = std::min<int>(lowest, bodies.nodes.body[n]), highest = std::max<int>(highest, bodies.nodes.body[n]);
   });
-  if (highest > lowest) meeting.note(lowest, highest);
+  if (highest > lowest) meeting.note({lowest, highest});
 }
 
 /// Ends the run on all ranks alike if something meets on one of them. True if it meets because the step is far too long: then
 /// nothing is known.
-bool bodies_meet(const Gas& gas, Meeting meeting, double dt, Domain& domain) {
-  meeting.code = -static_cast<int>(domain.maximum(-static_cast<double>(meeting.code)));
-  if (meeting.code == Meeting::none) return false;
+bool bodies_meet(const Gas& gas, const Meeting& meeting, double dt, Domain& domain) {
+  const auto least = [&](int mine) { return -static_cast<int>(domain.maximum(-static_cast<double>(mine))); };
+  const int body = least(meeting.pair.first);
+  if (body == Meeting::none) return false;
+  const int other = least(body == meeting.pair.first ? meeting.pair.second : Meeting::none);
   constexpr double farthest = 0.5;  // cells
   if (fastest(gas) * dt > farthest * gas.cells.cell_size) return true;
-  const auto& all = gas.bodies.all;
-  const auto side = static_cast<std::size_t>(meeting.what() - Meeting::first_side);
-  const std::string what = meeting.what() < Meeting::first_side ? "body " + all[static_cast<std::size_t>(meeting.what())].name
-                                                                : "the wall " + gas.edges[side].name;
-  throw BodiesMeet(
-      fmt::format("body {}: it runs into {} between {:.6g} and {:.6g} s, and the gas between them has nowhere to go; bodies in "
-                  "the gas must "
-                  "not touch what they approach: end the run before that, or let the body stop",
-                  all[static_cast<std::size_t>(meeting.body())].name, what, gas.time, gas.time + dt));
+  const auto name = [&](int number) { return gas.bodies.all[static_cast<std::size_t>(number)].name; };
+  const std::string who = other < 0 ? fmt::format("body {}: it runs into the wall {}", name(body),
+                                                  gas.edges[static_cast<std::size_t>(Meeting::of_side(0) - other)].name)
+                                    : fmt::format("bodies {} and {}: they meet", name(body), name(other));
+  throw BodiesMeet(fmt::format(
+      "{} between {:.6g} and {:.6g} s, and the gas between them has nowhere to go; bodies in the gas must not touch "
+      "what they approach: end the run before that, or let the body stop",
+      who, gas.time, gas.time + dt));
 }
 
 /// Redistributes what small cells hold; adds what has been entrapped in own cells, and by which bodies.

@@ -2,10 +2,12 @@
 // Cells that bodies of particles cut: their gas, the open parts of their faces, the wall in them. All of it follows from the
 // fraction of solid at the nodes and is computed alike by every rank that sees a cell.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "simulator/gas/cells.hpp"
@@ -84,6 +86,10 @@ struct BoxImages {
 inline double shared_fraction(const BodyNodes& nodes, std::size_t n) {
   constexpr double least_share = 0.2;  // of the second: the smear of a neighbour is not its body
   return !nodes.second_share.empty() && nodes.second_share[n] > least_share ? nodes.fraction[n] : 0.0;
+}
+/// The two bodies with the largest parts of such a node, the lower number first.
+inline std::pair<int, int> sharing_bodies(const BodyNodes& nodes, std::size_t n) {
+  return {std::min(nodes.body[n], nodes.other[n]), std::max(nodes.body[n], nodes.other[n])};
 }
 void put_on_nodes(const Window& window, const Cells& cells, const BoxImages& images, std::span<const BodyPoints> bodies,
                   BodyNodes& nodes);

@@ -8,7 +8,7 @@
 namespace brisance::simulator::gas {
 namespace {
 
-/// Square of the speed of sound behind a shock that changes the velocity by du; without one, of what there is.
+/// The speed of sound behind a shock that changes the velocity by du; without one, of what there is.
 Lanes sound_behind(const Lanes& sound, const Lanes& gruneisen, const Lanes& du) {
   const Lanes jump = max(du, Lanes(0.0));
   return sqrt(sound * sound + (1.0 + gruneisen) * jump * (sound + 0.5 * gruneisen * jump));

@@ -151,9 +151,40 @@ TEST(TwoBodiesThatMeet, EndTheRunAndAreNamed) {
           {moving_ball("anvil", {0.25, 0.1, 0.0}, 0.05, {}), moving_ball("ball", {0.1, 0.1, 0.0}, 0.04, {100.0, 0.0, 0.0})},
           Geometry::plane, *domain);
       const std::string message = end_of(gas, 1e-3, *domain);
-      EXPECT_NE(message.find("body anvil: it runs into body ball"), std::string::npos) << message;
+      EXPECT_NE(message.find("bodies anvil and ball: they meet"), std::string::npos) << message;
       EXPECT_NEAR(gas.time, 0.06 / 100.0, h / 100.0) << "their surfaces are 6 cells apart";
     });
+}
+
+/// Bodies that are built into each other are one for the gas. They take nothing from what others may.
+TEST(TwoBodiesThatTouch, MayNotPushIntoEachOtherWhateverOthersAreBuiltInto) {
+  for (const int ranks : {1, 3})
+    VirtualRanks::run(ranks, [&](std::shared_ptr<Domain> domain) {
+      const auto block = [](const std::string& name, double centre, double u) {
+        MovingBody body = set_up::body_of(Geometry::plane, h, {centre, 0.1, 0.0}, 0.05,
+                                          [](const Vector& x) { return std::abs(x[0]) < 0.05 && std::abs(x[1]) < 0.05; });
+        body.name = name;
+        set_up::give_velocity(body, {u, 0.0, 0.0});
+        return body;
+      };
+      const MovingBody core = moving_ball("core", {0.07, 0.1, 0.0}, 0.03, {});
+      Gas gas = air_around({core, core, block("left", 0.22, 0.0), block("right", 0.32, -10.0)}, Geometry::plane, *domain);
+      const std::string message = end_of(gas, h / 10.0, *domain);
+      EXPECT_NE(message.find("bodies left and right: they meet"), std::string::npos) << message;
+      EXPECT_LT(gas.time, 0.3 * h / 10.0) << "a third of a cell deep";
+    });
+}
+
+/// A piston across the tube: with its back beyond the wall, and nearer to it than a body may come.
+TEST(APistonThatLeavesAWall, DoesNotMeetIt) {
+  const auto domain = single_process();
+  for (const double back : {-0.06, 0.4 * h}) {
+    MovingBody piston = set_up::body_of(Geometry::plane, h, {0.0, 0.1, 0.0}, 0.2,
+                                        [=](const Vector& x) { return x[0] > back && x[0] < 0.1 && std::abs(x[1]) < 0.15; });
+    set_up::give_velocity(piston, {100.0, 0.0, 0.0});
+    Gas gas = air_around({piston}, Geometry::plane, *domain);
+    EXPECT_EQ(end_of(gas, 0.5e-3, *domain), "") << "its back starts at " << back << " m";
+  }
 }
 
 /// Along a wall, away from it, through it where the body reaches beyond the box, past another body.

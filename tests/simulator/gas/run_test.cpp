@@ -56,6 +56,61 @@ TEST(GasRun, HistoryHasTheSameColumnsFromTheFirstRowOn) {
     EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ','));
 }
 
+/// A block pushes into another one that it is built into from the start.
+TEST(GasRun, ThatEndsBecauseBodiesMeetEndsTheSameInPartsAndWhenResumed) {
+  const fs::path directory = scratch();
+  const Case c = read_case(write_text(directory / "blocks.toml", R"(
+title = "Blocks"
+geometry = "plane"
+cell_size = 0.01
+end_time = "2 ms"
+[gas]
+lower = [0, 0]
+upper = [0.4, 0.2]
+[[gas.fluid]]
+name = "gas"
+[gas.fluid.material]
+name = "ideal gas"
+density = 1.2
+density_source = "that of the start"
+[gas.fluid.material.equation_of_state]
+law = "ideal_gas"
+source = "a textbook gas"
+gamma = 1.4
+specific_heat = 718
+[[gas.fill]]
+density = 1.2
+pressure = 1e5
+[[gas.body]]
+name = "left"
+shape = { box = { lower = [0.1, 0.05], upper = [0.21, 0.15] } }
+[[gas.body]]
+name = "right"
+shape = { box = { lower = [0.2, 0.05], upper = [0.3, 0.15] } }
+velocity = [-5, 0]
+[output]
+figures = false
+)"));
+  const auto sentence = [](const RunResult& result) { return result.message.substr(0, result.message.find('\n')); };
+  Simulation whole = set_up(c), first = set_up(c), second = set_up(c), again = set_up(c);
+  prepare_directory(directory / "whole", c, false), prepare_directory(directory / "parts", c, false);
+  const RunResult in_one = run(c, whole, {directory / "whole", {}});
+  EXPECT_EQ(in_one.ending, Ending::failed);
+  EXPECT_TRUE(contains(in_one.message, "bodies left and right: they meet")) << in_one.message;
+  ASSERT_GT(whole.step, 20);
+
+  EXPECT_EQ(run(c, first, {directory / "parts", {}, 15}).ending, Ending::interrupted);
+  const RunResult in_parts = resume(c, second, {directory / "parts", {}});
+  EXPECT_EQ(sentence(in_parts), sentence(in_one));
+  EXPECT_EQ(second.step, whole.step);
+  EXPECT_TRUE(gas::numbers_of(second.gas) == gas::numbers_of(whole.gas));
+  EXPECT_EQ(text_of(directory / "parts" / "history.csv"), text_of(directory / "whole" / "history.csv"));
+
+  EXPECT_EQ(sentence(resume(c, again, {directory / "whole", {}})), sentence(in_one));
+  EXPECT_EQ(again.step, whole.step);
+  EXPECT_EQ(again.time, whole.time);
+}
+
 TEST(GasRun, TellsTheVelocityOfABodyWhoseMotionIsGiven) {
   Case c = read_case(shipped("gas_driven_projectile"), {"cell_size=20 mm", "output.figures=false"});
   c.gas->bodies.at(0).mass.reset();
