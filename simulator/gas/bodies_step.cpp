@@ -722,22 +722,29 @@ struct Meeting {
 };
 
 /// A body whose face closes in on a wall of the box, until a cell between them has so little gas that it would share it with
-/// its mirror image: half a cell from the wall. One that slides along a wall, or reaches through it, has no such face.
-void note_meeting_with_wall(const Gas& gas, Meeting& meeting) {
+/// its mirror image: half a cell from the wall. One that slides along a wall, or reaches through it, has no such face. At an
+/// open side it is a body that moves through: a small cell would share its gas with what lies beyond, and no book would know.
+void note_meeting_with_side(const Gas& gas, Meeting& meeting) {
   const Bodies& bodies = gas.bodies;
   const Window& w = bodies.window;
   for (const CutCell& c : bodies.step.cut) {
     const double size = magnitude(c.wall);
     const std::int32_t small = bodies.small.number[c.cell];
-    if (c.body < 0 || size == 0.0 || small < 0 || !gas.cells.contains(w.index(c.cell))) continue;
+    if (c.body < 0 || size == 0.0 || small < 0) continue;
     const Neighbourhood& hood = bodies.small.small[static_cast<std::size_t>(small)];
+    const auto any_member = [&](auto&& where) {
+      return std::any_of(hood.members.begin(), hood.members.begin() + hood.count, where);
+    };
+    if (!any_member([&](std::size_t n) { return gas.cells.contains(w.index(n)); })) continue;
     for (std::size_t side = 0; side < 2 * static_cast<std::size_t>(w.dimensions); ++side) {
-      if (gas.edges[side].kind != EdgeKind::wall) continue;
+      const EdgeKind kind = gas.edges[side].kind;
+      if (kind == EdgeKind::periodic) continue;
       const std::size_t a = side / 2;
       const double outward = side % 2 == 0 ? -1.0 : 1.0;
       constexpr double facing = 0.5;  // cosine
-      if (!(outward * c.wall[a] < -facing * size && outward * c.velocity[a] > 0.0)) continue;
-      const bool beyond = std::any_of(hood.members.begin(), hood.members.begin() + hood.count, [&](std::size_t n) {
+      const bool closes_in = outward * c.wall[a] < -facing * size && outward * c.velocity[a] > 0.0;
+      if (kind == EdgeKind::wall ? !(closes_in && gas.cells.contains(w.index(c.cell))) : c.velocity[a] == 0.0) continue;
+      const bool beyond = any_member([&](std::size_t n) {
         const int at = w.index(n)[a];
         return side % 2 == 0 ? at < gas.cells.lower[a] : at >= gas.cells.upper[a];
       });
@@ -790,13 +797,18 @@ bool bodies_meet(const Gas& gas, const Meeting& meeting, double dt, Domain& doma
   constexpr double farthest = 0.5;  // cells
   if (fastest(gas) * dt > farthest * gas.cells.cell_size) return true;
   const auto name = [&](int number) { return gas.bodies.all[static_cast<std::size_t>(number)].name; };
-  const std::string who = other < 0 ? fmt::format("body {}: it runs into the wall {}", name(body),
-                                                  gas.edges[static_cast<std::size_t>(Meeting::of_side(0) - other)].name)
-                                    : fmt::format("bodies {} and {}: they meet", name(body), name(other));
+  const std::string when = fmt::format("between {:.6g} and {:.6g} s", gas.time, gas.time + dt);
+  constexpr const char* advice =
+      "and the gas between them has nowhere to go; bodies in the gas must not touch what they approach: end the run before "
+      "that, or let the body stop";
+  if (other >= 0) throw BodiesMeet(fmt::format("bodies {} and {}: they meet {}, {}", name(body), name(other), when, advice));
+  const auto side = static_cast<std::size_t>(Meeting::of_side(0) - other);
+  if (gas.edges[side].kind == EdgeKind::wall)
+    throw BodiesMeet(fmt::format("body {}: it runs into the wall {} {}, {}", name(body), gas.edges[side].name, when, advice));
   throw BodiesMeet(fmt::format(
-      "{} between {:.6g} and {:.6g} s, and the gas between them has nowhere to go; bodies in the gas must not touch "
-      "what they approach: end the run before that, or let the body stop",
-      who, gas.time, gas.time + dt));
+      "body {}: it moves through the open side {} {}, which bodies in the gas cannot; end the run before that, or place the "
+      "side farther away",
+      name(body), gas.edges[side].name, when));
 }
 
 /// Redistributes what small cells hold; adds what has been entrapped in own cells, and by which bodies.
@@ -981,7 +993,7 @@ bool move_bodies(Gas& gas, double dt, Domain& domain) {
     find_open_space(bodies.window, gas.cells, bodies.nodes, bodies.next_space);
     find_cut_cells(bodies.window, gas.cells, bodies.space, bodies.next_space, bodies.nodes, bodies.step);
     find_neighbourhoods(bodies.window, gas.cells, bodies.space, bodies.next_space, bodies.step, bodies.small);
-    note_meeting_with_wall(gas, meeting);
+    note_meeting_with_side(gas, meeting);
     note_meeting_of_bodies(gas, meeting);
     changes_sides = gas_changes_sides(gas);
   }
