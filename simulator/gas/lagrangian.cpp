@@ -8,6 +8,7 @@
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/implicit.hpp"
 #include "simulator/gas/passages.hpp"
+#include "simulator/gas/transport.hpp"
 #include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
@@ -115,39 +116,52 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>&
   });
 }
 
+/// J, of the fluids of a cell together, at Content::energy: in what the remap is to write only later.
+CellSet& heat_of_friction(Gas& gas) {
+  return gas.next;
+}
+
 /// Friction between the rows of cells that a shock runs along: rows that exchange nothing but volume let it run ahead in one
 /// and fall back in the next, and the gas behind it is hot and cold in turn (the carbuncle: Quirk, Int. J. Numer. Meth. Fluids
 /// 18 (1994) 555). A viscosity of the size of the shock's own holds them together (Rodionov, J. Comput. Phys. 345 (2017) 308).
 /// It acts across faces along which the gas closes less than across them: a shock that is oblique to the grid would be widened.
 template <int D>
 void hold_rows_together(Gas& gas, std::size_t block, int axis, int n, double dt, const FaceStates<D>& s,
-                        const FacePencil& area) {
+                        const PencilMetric& metric) {
   constexpr double strength = 0.5;    // of the impedance that belongs to the closing
   constexpr double threshold = 0.05;  // of the speed of sound; below, it is no shock
   const double to_closing = 2.0 * gas.cells.cell_size / dt;
-  Pencil friction;  // kg/(m^2 s)
+  Pencil closing;  // kg/(m s^2) m/s: bulk modulus times the closing across a cell beyond the threshold
   LanesMask any_shock(false);
   for (std::size_t c = ring - 1; c <= ring + line; ++c) {
     // Half a step changes the pressure by - rho c^2 div u dt/2.
     const Lanes squared_sound = s.sound[c] * s.sound[c];
-    const Lanes closing =
-        to_closing * s.half_pressure[c] + s.density[c] * squared_sound * (D * s.stretch[c] - threshold * s.sound[c]);
-    friction[c] = closing;
-    any_shock |= closing > 0.0;
+    closing[c] = to_closing * s.half_pressure[c] + s.density[c] * squared_sound * (D * s.stretch[c] - threshold * s.sound[c]);
+    any_shock |= closing[c] > 0.0;
   }
   if (none(any_shock)) return;
+  Pencil rubbing;  // m/s: friction over density and jump of the velocity
   for (std::size_t c = ring - 1; c <= ring + line; ++c)
-    friction[c] = max(Lanes(strength * friction[c] / (s.density[c] * s.sound[c] * s.sound[c])), Lanes(0.0));
+    rubbing[c] = max(Lanes(strength * closing[c] / (s.density[c] * s.sound[c] * s.sound[c])), Lanes(0.0));
   FacePencil push[D], energy;  // N s, J: through the faces to the low side
   energy.fill(Lanes(0.0));
+  const bool several = gas.fluids.size() > 1;
+  Pencil heat;  // J
+  if (several) load_own<D>(heat_of_friction(gas), block, Content::energy, axis, n, heat);
   for (int a = 0; a < D; ++a) {
     if (a == axis) continue;
     const Pencil& u = s.velocity[a];
     for (std::size_t f = 0; f < line_faces; ++f) {
       const std::size_t l = ring + f - 1, r = ring + f;
-      const Lanes impedance = min(s.density[l], s.density[r]) * max(friction[l], friction[r]);
-      push[a][f] = dt * area[f] * impedance * (u[r] - u[l]);
+      const Lanes impedance = min(s.density[l], s.density[r]) * max(rubbing[l], rubbing[r]);
+      push[a][f] = dt * metric.area[f] * impedance * (u[r] - u[l]);
       energy[f] += 0.5 * push[a][f] * (u[l] + u[r]);
+    }
+    if (!several) continue;
+    for (std::size_t f = 0; f < line; ++f) {
+      const std::size_t c = ring + f;
+      const Lanes pushed = push[a][f + 1] - push[a][f], mass = s.density[c] * metric.volume[c];
+      heat[c] += 0.5 * (push[a][f] * (u[c] - u[c - 1]) + push[a][f + 1] * (u[c + 1] - u[c]) - pushed * pushed / mass);
     }
   }
   const auto add = [&](int quantity, const FacePencil& through) {
@@ -156,6 +170,7 @@ void hold_rows_together(Gas& gas, std::size_t block, int axis, int n, double dt,
     for (std::size_t f = 0; f < line; ++f) values[ring + f] += through[f + 1] - through[f];
     store<D>(gas.moved, block, quantity, axis, n, values);
   };
+  if (several) store<D>(heat_of_friction(gas), block, Content::energy, axis, n, heat);
   add(Content::energy, energy);
   for (int a = 0; a < D; ++a)
     if (a != axis) add(Content::momentum + a, push[a]);
@@ -176,6 +191,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
   const Cells& cells = gas.cells;
   for (int q = Content::room; q < Content::fluids(D); ++q)
     std::copy_n(gas.content.at(block, q), Shape::packs, gas.moved.at(block, q));
+  if (gas.fluids.size() > 1) std::fill_n(heat_of_friction(gas).at(block, Content::energy), Shape::packs, Lanes(0.0));
   for (int axis = 0; axis < D; ++axis) {
     for (int n = 0; n < Shape::pencils; ++n) {
       FaceStates<D> states;
@@ -210,7 +226,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
       store<D>(gas.moved, block, Content::energy, axis, n, energy);
       book_pressure(gas, block, axis, n, dt, face_pressure, flow, metric);
       if constexpr (D > 1)
-        if (!gas.implicit) hold_rows_together<D>(gas, block, axis, n, dt, states, metric.area);
+        if (!gas.implicit) hold_rows_together<D>(gas, block, axis, n, dt, states, metric);
     }
   }
 
@@ -253,7 +269,8 @@ bool move(Gas& gas, std::size_t block, double dt) {
     } else {
       Lanes rest(1.0), largest(0.0);
       const auto of = [&](int r, int quantity) -> Lanes& { return at(gas.moved, Content::fluids(D) + 3 * r + quantity); };
-      const Lanes growth = moved - room, work = internal - internal_before;
+      const Lanes heat = at(heat_of_friction(gas), Content::energy);
+      const Lanes growth = moved - room, work = internal - internal_before - heat;
       for (int r = 0; r < fluids; ++r) largest = max(largest, of(r, Content::volume));
       LanesMask given(false);
       for (int r = 0; r < fluids; ++r) {
@@ -272,6 +289,10 @@ bool move(Gas& gas, std::size_t block, double dt) {
         const LanesMask most_of_it = (before == largest) & !given;
         given |= most_of_it;
         volume += select(most_of_it, rest * growth, Lanes(0.0)), energy += select(most_of_it, rest * work, Lanes(0.0));
+      }
+      if (any(abs(heat) > 0.0)) warm_alike(gas, gas.moved, block, k, heat);
+      for (int r = 0; r < fluids; ++r) {
+        const Lanes volume = of(r, Content::volume), energy = of(r, Content::internal);
         const Fluid& fluid = gas.fluids[static_cast<std::size_t>(r)];
         const Lanes own_mass = of(r, Content::mass);
         const Lanes density = select(volume > 0.0, own_mass / volume, Lanes(fluid.usual_density));

@@ -294,6 +294,15 @@ void prepare_transport(Gas& gas, Domain& domain) {
   fill_ghosts(gas);
 }
 
+void warm_alike(const Gas& gas, CellSet& set, std::size_t block, int k, const Lanes& heat) {
+  Lanes capacity(0.0);
+  const std::vector<Warmth> warmths = warmths_of(gas, set, block, k, Lanes(0.0));
+  for (const Warmth& w : warmths) capacity += w.capacity;
+  for (std::size_t r = 0; r < warmths.size(); ++r)
+    set.at(block, Content::fluids(gas.dimensions()) + 3 * static_cast<int>(r) + Content::internal)[k] +=
+        heat * warmths[r].capacity / capacity;
+}
+
 void apply_transport(Gas& gas, double dt) {
   if (!has_transport(gas) && (gas.heat_exchange == 0.0 || gas.fluids.size() == 1)) return;
   parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {

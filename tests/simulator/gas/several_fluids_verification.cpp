@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -15,6 +16,7 @@
 
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/lagrangian.hpp"
 #include "tests/simulator/gas/exact_riemann.hpp"
 #include "tests/simulator/gas/set_up.hpp"
 
@@ -454,6 +456,40 @@ TEST(RiemannProblem, AtRandomHasThePlateauOfTheExactSolution) {
                                std::to_string(plain_failures) + "; worst of the highest pressure " +
                                std::to_string(worst_of_drive));
   RecordProperty("worst", std::to_string(worst_pressure) + ", velocity " + std::to_string(worst_velocity));
+}
+
+// Friction along shocks ------------------------------------------------------------------------------------------------
+
+TEST(FrictionAlongShocks, WarmsTheFluidsOfACellAlike) {
+  // Bubbly water that is compressed along y slides along z: one Lagrangian phase, with and without.
+  constexpr double closing = 50.0, sliding = 100.0, dt = 1e-4;  // m/s, m/s, s; cells of 1 m
+  constexpr int half = 8;
+  const auto warmed = [&](double jump) {
+    const auto domain = single_process();
+    Gas gas = set_up::box(Geometry::three_dimensional, 1.0, {-half, -half, -half}, {half, half, half}, {water, air}, *domain);
+    fill_in_portions(
+        gas,
+        [&](const Vector& x) -> std::vector<Portion> {
+          const Vector velocity = {0.0, -closing * x[1], x[0] < 0.0 ? -0.5 * jump : 0.5 * jump};
+          return {{0.99, {0, 1000.0, 1e5, velocity}}, {0.01, {1, 1.2, 1e5, velocity}}};
+        },
+        *domain);
+    advance_half_step(gas, dt);
+    EXPECT_TRUE(lagrangian_phase(gas, dt));
+    std::array<double, 2> energies{};
+    set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
+      if (c.index != std::array{0, 0, 0}) return;
+      for (int r = 0; r < 2; ++r)
+        energies[static_cast<std::size_t>(r)] =
+            gas.moved.cell(c.block, Content::fluids(3) + 3 * r + Content::internal, c.number);
+    });
+    return energies;
+  };
+  const std::array<double, 2> calm = warmed(0.0), rubbed = warmed(sliding);
+  const double of_water = (rubbed[0] - calm[0]) / (990.0 * 1000.0), of_air = (rubbed[1] - calm[1]) / (0.012 * 718.0);  // K
+  constexpr double rounding = 1e-4;  // of joules beside the 1e9 of the cell
+  EXPECT_GT(of_water, 0.0);
+  EXPECT_NEAR(of_air / of_water, 1.0, rounding);
 }
 
 }  // namespace
