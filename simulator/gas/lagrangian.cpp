@@ -124,19 +124,23 @@ CellSet& heat_of_friction(Gas& gas) {
 /// Friction between the rows of cells that a shock runs along: rows that exchange nothing but volume let it run ahead in one
 /// and fall back in the next, and the gas behind it is hot and cold in turn (the carbuncle: Quirk, Int. J. Numer. Meth. Fluids
 /// 18 (1994) 555). A viscosity of the size of the shock's own holds them together (Rodionov, J. Comput. Phys. 345 (2017) 308).
-/// It acts across faces along which the gas closes less than across them: a shock that is oblique to the grid would be widened.
+/// It acts where the gas is compressed, and more along a face than across it: a shock that is oblique to the grid would be
+/// widened, and neither a rarefaction nor a strain that keeps the volume is a shock. How the strength was
+/// chosen is in docs/gas.md.
 template <int D>
 void hold_rows_together(Gas& gas, std::size_t block, int axis, int n, double dt, const FaceStates<D>& s,
                         const PencilMetric& metric) {
-  constexpr double strength = 0.5;    // of the impedance that belongs to the closing
+  constexpr double strength = 0.45;   // of the impedance that belongs to the closing
   constexpr double threshold = 0.05;  // of the speed of sound; below, it is no shock
+  constexpr double most = 4.0;        // times the compression, however much faster the gas closes in one direction
   const double to_closing = 2.0 * gas.cells.cell_size / dt;
   Pencil closing;  // kg/(m s^2) m/s: bulk modulus times the closing across a cell beyond the threshold
   LanesMask any_shock(false);
   for (std::size_t c = ring - 1; c <= ring + line; ++c) {
     // Half a step changes the pressure by - rho c^2 div u dt/2.
-    const Lanes squared_sound = s.sound[c] * s.sound[c];
-    closing[c] = to_closing * s.half_pressure[c] + s.density[c] * squared_sound * (D * s.stretch[c] - threshold * s.sound[c]);
+    const Lanes modulus = s.density[c] * s.sound[c] * s.sound[c], compression = to_closing * s.half_pressure[c];
+    closing[c] =
+        min(Lanes(most * compression), compression + modulus * (D * s.stretch[c])) - modulus * (threshold * s.sound[c]);
     any_shock |= closing[c] > 0.0;
   }
   if (none(any_shock)) return;

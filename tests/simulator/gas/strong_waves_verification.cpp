@@ -14,6 +14,8 @@
 #include "tests/simulator/gas/exact_solutions.hpp"
 #include "tests/simulator/gas/set_up.hpp"
 
+#include "simulator/gas/lagrangian.hpp"  // after exact_solutions.hpp, which has a name of cells.hpp for another thing
+
 namespace brisance::simulator::gas {
 namespace {
 
@@ -402,6 +404,52 @@ TEST(Explosion, IsThatOfTheComparisonSolver) {
     EXPECT_LT(relative_error(radial, 400), small) << radial.name;
     EXPECT_LT(relative_error(round, cells), coarse) << round.name;
   }
+}
+
+// Friction along shocks ----------------------------------------------------------------------------------------------------
+
+TEST(Shear, IsNotRubbedInARarefaction) {
+  // Where two gases part that slide along each other, each keeps what velocity it has along the other. By symmetry nothing
+  // passes between them.
+  constexpr double sliding = 1.0, rounding = 1e-12;
+  const auto domain = single_process();
+  constexpr int cells = 100;
+  Gas gas = set_up::box(Geometry::plane, 1.0 / cells, {-cells / 2, 0, 0}, {cells / 2, 8, 0}, {set_up::ideal_gas()}, *domain);
+  const auto parting = [&](const Vector& x, double) {
+    const double side = x[0] < 0.0 ? -1.0 : 1.0;
+    return Filling{0, 1.0, 0.4, {2.0 * side, sliding * side, 0.0}};  // Toro's second test
+  };
+  gas.edges = {set_up::beyond(EdgeKind::inflow, parting), set_up::beyond(EdgeKind::inflow, parting), set_up::around(),
+               set_up::around()};
+  fill(gas, parting, *domain);
+  Stepper().to(gas, 0.1, *domain);
+  double largest = 0.0;
+  set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
+    largest = std::max(largest, std::abs(c.velocity[1] - (c.centre[0] < 0.0 ? -sliding : sliding)));
+  });
+  EXPECT_LT(largest, rounding);
+}
+
+TEST(Shear, IsNotRubbedInAStrainThatKeepsTheVolume) {
+  // Neither the pressure nor the velocity of the faces gives any push here: one Lagrangian phase leaves the momenta alone.
+  constexpr int half = 8;
+  constexpr double strain = 0.5, sliding = 1.0, dt = 0.1, rounding = 1e-13;  // in cells and the time of sound through one
+  const auto domain = single_process();
+  Gas gas = set_up::box(Geometry::plane, 1.0, {-half, -half, 0}, {half, half, 0}, {set_up::ideal_gas()}, *domain);
+  fill(
+      gas,
+      [&](const Vector& x, double) {
+        return Filling{0, 1.0, 1.0 / 1.4, {strain * x[0], (x[0] < 0.0 ? -sliding : sliding) - strain * x[1], 0.0}};
+      },
+      *domain);
+  advance_half_step(gas, dt);
+  ASSERT_TRUE(lagrangian_phase(gas, dt));
+  double largest = 0.0;
+  set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
+    if (std::max(std::abs(c.centre[0]), std::abs(c.centre[1])) > half - 3) return;  // walls
+    largest = std::max(largest, std::abs(gas.moved.cell(c.block, Content::momentum + 1, c.number) - c.velocity[1]));
+  });
+  EXPECT_LT(largest, rounding);
 }
 
 }  // namespace
