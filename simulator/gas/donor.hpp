@@ -1,6 +1,6 @@
 #pragma once
 // What leaves a cell through a face, and how its fluids share a change of volume: the formulas that the steps with and without
-// bodies have in common (remap.cpp, lagrangian.cpp, bodies_step.cpp).
+// bodies have in common (remap.cpp, lagrangian.cpp, bodies_remap.cpp, bodies_lagrangian.cpp).
 
 #include "simulator/gas/limiter.hpp"
 

@@ -1,0 +1,89 @@
+// The end of a step with bodies: whether the cells bear it, what has passed the sides of the box, what is kept.
+
+#include <algorithm>
+
+#include "simulator/gas/bodies_step.hpp"
+#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/passages.hpp"
+
+namespace brisance::simulator::gas::unsplit {
+
+bool all_is_well(Gas& gas) {
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  const StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  std::vector<char> good(gas.cells.mine.size(), 1);
+  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
+    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
+    for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
+      const Index index = gas.cells.index(block, c);
+      if (!gas.cells.contains(index)) continue;
+      const std::size_t n = w.at(index);
+      if (bodies.next_space.volume[n] == 0.0) continue;
+      const double room = whole_cell(gas.cells, index[0]).volume;
+      double mass = 0.0, thermal = 0.0, kinetic = 0.0;
+      bool fine = true;
+      for (std::size_t r = 0; r < gas.fluids.size(); ++r) {
+        const std::size_t first = Content::momentum + D + per_fluid * r;
+        const double own = s.content[first][n];
+        mass += own;
+        if (!(own >= 0.0)) fine = false;
+        if (gas.fluids.size() > 1 && s.content[first + Content::volume][n] < -1e-14 * room) fine = false;
+      }
+      for (std::size_t a = 0; a < D; ++a)
+        kinetic += 0.5 * s.content[Content::momentum + a][n] * s.content[Content::momentum + a][n];
+      thermal = s.content[Content::energy][n] - kinetic / mass;
+      if (gas.fluids.size() == 1) thermal -= mass * coldest_energy(gas.fluids[0], Lanes(mass / room))[0];
+      if (fine && mass > 0.0 && thermal > 0.0) continue;
+      gas.marks.cell(block, 0, c) = 1.0, good[i] = 0;
+    }
+  });
+  return std::all_of(good.begin(), good.end(), [](char g) { return g != 0; });
+}
+
+void book_sides(Gas& gas, double dt) {
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  const StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  for (Passage& passage : gas.passages) {
+    if (passage.side >= 2 * gas.dimensions()) continue;
+    const auto a = static_cast<std::size_t>(passage.side / 2);
+    const bool low = passage.side % 2 == 0;
+    const double sign = low ? 1.0 : -1.0;
+    const Index corner = gas.cells.corner(static_cast<std::size_t>(passage.block));
+    Part layer;
+    for (std::size_t b = 0; b < 3; ++b) {
+      const bool used = b < D;
+      layer.lower[b] = used ? std::max(corner[b], gas.cells.lower[b]) : 0;
+      layer.upper[b] = used ? std::min(corner[b] + line, gas.cells.upper[b]) : 1;
+    }
+    layer.lower[a] = low ? gas.cells.lower[a] : gas.cells.upper[a], layer.upper[a] = layer.lower[a] + 1;
+    for_each_cell_of(layer, [&](const Index& face) {
+      const std::size_t n = w.at(face);
+      passage.step.momentum[a] += sign * dt * bodies.step.area[a][n] * s.pressure[a][n];
+      passage.step.energy += sign * (dt * s.pressure[a][n] * s.flow[a][n] + s.passing[a][Content::energy][n]);
+      for (std::size_t b = 0; b < D; ++b) passage.step.momentum[b] += sign * s.passing[a][Content::momentum + b][n];
+      for (std::size_t r = 0; r < gas.fluids.size(); ++r)
+        passage.step.mass[r] += sign * s.passing[a][Content::momentum + D + per_fluid * r][n];
+    });
+  }
+}
+
+void keep(Gas& gas) {
+  const StepFields& s = gas.bodies.fields;
+  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
+    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
+    for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
+      const Index index = gas.cells.index(block, c);
+      if (!gas.cells.contains(index)) continue;
+      const std::size_t n = gas.bodies.window.at(index);
+      for (std::size_t q = 1; q < s.content.size(); ++q) gas.content.cell(block, static_cast<int>(q), c) = s.content[q][n];
+    }
+  });
+}
+
+}  // namespace brisance::simulator::gas::unsplit

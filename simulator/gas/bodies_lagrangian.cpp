@@ -1,0 +1,191 @@
+// The Lagrangian phase of a step with bodies: half a step, the faces, and what they do to the cells.
+
+#include "simulator/gas/acoustic.hpp"
+#include "simulator/gas/bodies_step.hpp"
+#include "simulator/gas/donor.hpp"
+#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/limiter.hpp"
+
+namespace brisance::simulator::gas::unsplit {
+namespace {
+
+Lanes slope_at(const Column& q, std::size_t n, std::size_t step, const LanesMask& smooth) {
+  return select(smooth, monotonised_central(at(q, n - step), at(q, n), at(q, n + step)), Lanes(0.0));
+}
+
+FaceSide face_side(const StepFields& s, const Window& w, const CutCells& step, std::size_t n, std::size_t axis, double towards,
+                   const LanesMask& plain) {
+  const LanesMask smooth = at(step.smooth[axis], n) > 0.5;
+  const auto slope_of = [&](int quantity) {
+    return slope_at(s.primitive[static_cast<std::size_t>(quantity)], n, offset(w, axis), smooth);
+  };
+  const int along = Primitive::velocity + static_cast<int>(axis);
+  const Lanes density = at(s.primitive[Primitive::density], n), pressure = at(s.primitive[Primitive::pressure], n),
+              velocity = at(s.primitive[static_cast<std::size_t>(along)], n);
+  FaceSide side;
+  side.density = density + towards * slope_of(Primitive::density);
+  side.pressure = pressure + towards * slope_of(Primitive::pressure) + at(s.half[HalfStep::pressure], n);
+  side.velocity = velocity + towards * slope_of(along) + at(s.half[HalfStep::velocity + axis], n);
+  return trusted(side, density, pressure, velocity, plain);
+}
+FaceSide chosen(const LanesMask& yes, const FaceSide& a, const FaceSide& b) {
+  return {select(yes, a.velocity, b.velocity), select(yes, a.pressure, b.pressure), select(yes, a.density, b.density)};
+}
+
+}  // namespace
+
+void half_step(Gas& gas, double dt) {
+  const Window& w = gas.bodies.window;
+  const CutCells& step = gas.bodies.step;
+  StepFields& s = gas.bodies.fields;
+  const double h = gas.cells.cell_size;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const bool round = is_round(gas.cells.geometry);
+  for_each_eight(w, [&](std::size_t n) {
+    const Lanes density = at(s.primitive[Primitive::density], n), sound = at(s.primitive[Primitive::sound_speed], n);
+    Lanes divergence(0.0);
+    LanesMask whole(true);
+    for (std::size_t a = 0; a < D; ++a) {
+      const LanesMask smooth = at(step.smooth[a], n) > 0.5;
+      const Lanes push = slope_at(s.primitive[Primitive::pressure], n, offset(w, a), smooth);
+      ((-0.5 * dt / h) * push / density).store(s.half[HalfStep::velocity + a].data() + n);
+      divergence += slope_at(s.primitive[Primitive::velocity + a], n, offset(w, a), smooth);
+      whole &= smooth;
+    }
+    divergence *= 1.0 / h;
+    if (round) {
+      Lanes widening;
+      for (int l = 0; l < 8; ++l) {
+        const std::size_t cell = std::min(n + static_cast<std::size_t>(l), w.first + w.cells - 1);
+        widening.set(l, gas.cells.metric.widening[static_cast<std::size_t>(w.index(cell)[0] - gas.cells.metric.first)]);
+      }
+      divergence += select(whole, widening * at(s.primitive[Primitive::velocity], n), Lanes(0.0));
+    }
+    (-0.5 * dt * density * sound * sound * divergence).store(s.half[HalfStep::pressure].data() + n);
+    if (!gas.careful) return;
+    const LanesMask plain = at(s.plain, n) > 0.0;
+    for (Column& half : s.half) select(plain, Lanes(0.0), at(half, n)).store(half.data() + n);
+  });
+}
+
+LanesMask first_order(const Gas& gas, std::size_t low, std::size_t high) {
+  if (!gas.careful) return LanesMask(false);
+  return at(gas.bodies.fields.plain, low) + at(gas.bodies.fields.plain, high) > 0.0;
+}
+
+void find_faces(Gas& gas, double dt) {
+  const Window& w = gas.bodies.window;
+  const CutCells& step = gas.bodies.step;
+  StepFields& s = gas.bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const auto speed_at = [&](std::size_t n) {
+    Lanes square(0.0);
+    for (std::size_t a = 0; a < D; ++a) {
+      const Lanes u = at(s.primitive[Primitive::velocity + a], n);
+      square += u * u;
+    }
+    return square;
+  };
+  for (std::size_t a = 0; a < D; ++a)
+    for_each_eight(w, [&](std::size_t n) {
+      const std::size_t l = n - offset(w, a);
+      const LanesMask plain = first_order(gas, l, n);
+      FaceSide L = face_side(s, w, step, l, a, 0.5, plain), R = face_side(s, w, step, n, a, -0.5, plain);
+      Lanes sound_L = at(s.primitive[Primitive::sound_speed], l), sound_R = at(s.primitive[Primitive::sound_speed], n);
+      // A cell that is only being opened has no state to send.
+      const LanesMask gas_L = at(gas.bodies.space.volume, l) > 0.0, gas_R = at(gas.bodies.space.volume, n) > 0.0;
+      const FaceSide from_L = L;
+      L = chosen(gas_L, L, R), R = chosen(gas_R, R, from_L);
+      const Lanes c_L = sound_L;
+      sound_L = select(gas_L, sound_L, sound_R), sound_R = select(gas_R, sound_R, c_L);
+      const Lanes shock = 1.0 + 0.5 * max(at(s.primitive[Primitive::gruneisen], l), at(s.primitive[Primitive::gruneisen], n));
+      const Star found = star(L, R, sound_L, sound_R, shock, sqrt(max(speed_at(l), speed_at(n))), gas.least_mach);
+      // Gas at rest is so to the last bit.
+      const LanesMask calm = (L.pressure == R.pressure) & (L.velocity == R.velocity);
+      const Lanes velocity = select(calm, L.velocity, found.velocity);
+      Lanes area = at(step.area[a], n);
+      const LanesMask open = area > 0.0;
+      if (a == 0 && is_round(gas.cells.geometry)) {
+        const Lanes cut = area;
+        area = area_on_the_way(gas.cells, area, dt * velocity);
+        const LanesMask whole = (at(gas.bodies.space.area[0], n) == cut) & open;
+        area = select(whole, area, cut);
+      }
+      select(open, area * velocity, Lanes(0.0)).store(s.flow[a].data() + n);
+      // The face on the axis has no area, but a pressure.
+      select(gas_L | gas_R, select(calm, L.pressure, found.pressure), Lanes(0.0)).store(s.pressure[a].data() + n);
+    });
+  // Nothing passes a wall, not even a rounding error.
+  for (std::size_t side = 0; side < 2 * D; ++side) {
+    const std::size_t a = side / 2;
+    const int at_face = side % 2 == 0 ? gas.cells.lower[a] : gas.cells.upper[a];
+    if (gas.edges[side].kind != EdgeKind::wall || at_face < w.lower[a] || at_face >= w.lower[a] + w.size[a]) continue;
+    Part plane;
+    for (std::size_t b = 0; b < 3; ++b) plane.lower[b] = w.lower[b], plane.upper[b] = w.lower[b] + w.size[b];
+    plane.lower[a] = at_face, plane.upper[a] = at_face + 1;
+    for_each_cell_of(plane, [&](const Index& cell) { s.flow[a][w.at(cell)] = 0.0; });
+  }
+}
+
+void push_cells(Gas& gas, double dt) {
+  const Window& w = gas.bodies.window;
+  const CutCells& step = gas.bodies.step;
+  StepFields& s = gas.bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  for_each_eight(w, [&](std::size_t n) {
+    Lanes growth(0.0), work(0.0);
+    for (std::size_t a = 0; a < D; ++a) {
+      const std::size_t next = n + offset(w, a);
+      const Lanes low = at(s.pressure[a], n), high = at(s.pressure[a], next);
+      const Lanes in = at(s.flow[a], n), out = at(s.flow[a], next);
+      growth += out - in, work += high * out - low * in;
+      // The impulse of the pressure on the sides of a widening cell is that of the mean of its two faces.
+      (-dt * (0.5 * (at(step.area[a], n) + at(step.area[a], next))) * (high - low))
+          .store(s.change[Content::momentum + a].data() + n);
+    }
+    (-dt * work).store(s.change[Content::energy].data() + n);
+    (at(gas.bodies.next_space.volume, n) + dt * growth).store(s.volume.data() + n);
+    for (std::size_t q = Content::momentum + D; q < s.change.size(); ++q) Lanes(0.0).store(s.change[q].data() + n);
+  });
+}
+
+void share_changes(Gas& gas) {
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = gas.bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
+  const auto first = [&](std::size_t r) { return Content::momentum + D + 3 * r; };
+  for_each_eight(w, [&](std::size_t n) {
+    const Lanes volume = at(bodies.space.volume, n), open = volume / whole_volumes(gas.cells, w, n);
+    Lanes mass(0.0), kinetic_before(0.0), kinetic(0.0);
+    for (std::size_t r = 0; r < fluids; ++r) mass += open * at(s.content[first(r) + Content::mass], n);
+    for (std::size_t a = 0; a < D; ++a) {
+      const Lanes before = open * at(s.content[Content::momentum + a], n),
+                  after = before + at(s.change[Content::momentum + a], n);
+      kinetic_before += before * before, kinetic += after * after;
+    }
+    const Lanes growth = at(s.volume, n) - volume;
+    const Lanes work = at(s.change[Content::energy], n) - 0.5 * (kinetic - kinetic_before) / mass;
+    const LanesMask gas_here = volume > 0.0;
+    Lanes rest(1.0), largest(0.0);
+    for (std::size_t r = 0; r < fluids; ++r) largest = max(largest, at(s.content[first(r) + Content::volume], n));
+    std::vector<Lanes> share(fluids);
+    std::vector<LanesMask> majority(fluids);
+    LanesMask given(false);
+    for (std::size_t r = 0; r < fluids; ++r) {
+      const Lanes own = at(s.content[first(r) + Content::volume], n);
+      majority[r] = (own == largest) & !given;
+      given |= majority[r];
+      const Lanes wanted = at(s.primitive[Primitive::velocity + D + r], n);
+      share[r] = select(majority[r], Lanes(0.0), limited_share(wanted, growth, open * own));
+      rest -= share[r];
+    }
+    for (std::size_t r = 0; r < fluids; ++r) {
+      const Lanes part = select(gas_here, select(majority[r], rest, share[r]), Lanes(0.0));
+      select(gas_here, part * growth, Lanes(0.0)).store(s.change[first(r) + Content::volume].data() + n);
+      select(gas_here, part * work, Lanes(0.0)).store(s.change[first(r) + Content::internal].data() + n);
+    }
+  });
+}
+
+}  // namespace brisance::simulator::gas::unsplit

@@ -1,0 +1,258 @@
+// The remap of a step with bodies, of all axes at once, and the redistribution of what small cells hold.
+
+#include <atomic>
+
+#include "simulator/gas/bodies_step.hpp"
+#include "simulator/gas/donor.hpp"
+#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/limiter.hpp"
+
+namespace brisance::simulator::gas::unsplit {
+namespace {
+
+/// The flow through eight faces: which of the two cells gives, and what part of it.
+struct Giving {
+  std::size_t low, high, step;
+  LanesMask up, smooth;
+  Lanes part;
+
+  Lanes of(const Column& q) const { return select(up, at(q, low), at(q, high)); }
+  Lanes difference(const Column& q, const Lanes& leaving) const {
+    return difference_across_donor(up, at(q, low - step), at(q, low), at(q, high), at(q, high + step), leaving);
+  }
+  Lanes leaving(const Column& q, const Lanes& own_part, const LanesMask& where) const {
+    return of(q) + select(where, 0.5 * (1.0 - own_part) * difference(q, own_part), Lanes(0.0));
+  }
+  Lanes leaving(const Column& q) const { return leaving(q, part, smooth); }
+};
+
+/// Cells of a group of eight that this process owns and that hold gas: what they do is counted.
+int count_own(const Gas& gas, const LanesMask& cells, const LanesMask& up, std::size_t low, std::size_t high) {
+  const Bodies& bodies = gas.bodies;
+  int count = 0;
+  for (std::size_t l = 0; l < 8; ++l) {
+    if (!cells[static_cast<int>(l)]) continue;
+    const std::size_t n = (up[static_cast<int>(l)] ? low : high) + l;
+    if (n < bodies.window.first || n >= bodies.window.first + bodies.window.cells || !(bodies.space.volume[n] > 0.0)) continue;
+    const Index cell = bodies.window.index(n);
+    count += gas.cells.contains(cell) && gas.cells.find(cell) ? 1 : 0;
+  }
+  return count;
+}
+
+/// What passes the faces across an axis. Returns how many slopes of own cells have been taken back.
+std::int64_t find_passing(Gas& gas, double dt, std::size_t axis) {
+  Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
+  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  std::vector<Column>& passing = s.passing[axis];
+  std::atomic<std::int64_t> flattened = 0;
+  for_each_eight(w, [&](std::size_t n) {
+    const Lanes swept = dt * at(s.flow[axis], n);
+    const LanesMask none_passes = swept == 0.0;
+    const auto put = [&](std::size_t q, const Lanes& value) {
+      select(none_passes, Lanes(0.0), value).store(passing[q].data() + n);
+    };
+    Giving giving{n - offset(w, axis), n, offset(w, axis), swept > 0.0, LanesMask(false), Lanes(0.0)};
+    giving.part = abs(swept) / giving.of(s.volume);
+    giving.smooth = (giving.of(bodies.step.smooth[axis]) > 0.5) & !first_order(gas, giving.low, giving.high);
+    Lanes mass(0.0), heat(0.0);
+    if (fluids == 1) {
+      mass = swept * giving.leaving(s.density), heat = swept * giving.leaving(s.energy);
+      put(Content::momentum + D, mass);
+    } else {
+      const Lanes q = abs(swept), sign = select(giving.up, Lanes(1.0), Lanes(-1.0)), room = giving.of(s.volume);
+      constexpr double most = 0.999;  // of what the donor has
+      Lanes left = q, largest(0.0);
+      std::vector<Lanes> volume(fluids);
+      for (std::size_t r = 0; r < fluids; ++r) {
+        const Lanes part = giving.of(s.part[r]);
+        const LanesMask whole = part > 1.0 - least_fraction;
+        const Lanes wanted = max(Lanes(q * giving.leaving(s.part[r])), Lanes(0.0));
+        volume[r] = select(whole, q, min(wanted, Lanes(most * part * room)));
+        left -= volume[r], largest = max(largest, part);
+      }
+      LanesMask given(false);
+      for (std::size_t r = 0; r < fluids; ++r) {
+        const Lanes part = giving.of(s.part[r]);
+        const LanesMask here = part > 0.0, most_of_it = (part == largest) & !given;
+        given |= most_of_it;
+        const Lanes own = volume[r] + select(most_of_it, left, Lanes(0.0));
+        const Lanes own_part = min(Lanes(own / max(Lanes(part * room), Lanes(1e-300))), Lanes(0.9999));
+        // Slopes only where the cell before, this one and the next all have the fluid.
+        const Lanes around =
+            min(min(at(s.part[r], giving.low), at(s.part[r], giving.high)),
+                select(giving.up, at(s.part[r], giving.low - giving.step), at(s.part[r], giving.high + giving.step)));
+        const LanesMask smooth = giving.smooth & (around > 0.0);
+        const Lanes dm = select(here, sign * own * giving.leaving(s.fluid_density[r], own_part, smooth), Lanes(0.0));
+        const Lanes dI = select(here, sign * own * giving.leaving(s.fluid_energy[r], own_part, smooth), Lanes(0.0));
+        const std::size_t first = Content::momentum + D + per_fluid * r;
+        put(first + Content::mass, dm), put(first + Content::volume, select(here, sign * own, Lanes(0.0)));
+        put(first + Content::internal, dI);
+        mass += dm, heat += dI;
+      }
+    }
+    const Lanes density = giving.of(s.density), part = abs(mass) / (density * giving.of(s.volume));
+    Lanes slopes[3], steepness(0.0);
+    for (std::size_t a = 0; a < D; ++a) {
+      const auto of = [&](std::size_t cell) {
+        return monotonised_central(at(s.velocity[a], cell - giving.step), at(s.velocity[a], cell),
+                                   at(s.velocity[a], cell + giving.step));
+      };
+      slopes[a] = select(giving.smooth, select(giving.up, of(giving.low), of(giving.high)), Lanes(0.0));
+      steepness += slopes[a] * slopes[a];
+    }
+    const Leaving leaving = leaving_with_momentum(giving.up, part, density, steepness, giving.of(s.energy), Lanes(1.0));
+    if (any(leaving.too_steep))
+      flattened += count_own(gas, leaving.too_steep & !none_passes, giving.up, giving.low, giving.high);
+    Lanes kinetic(0.0);
+    for (std::size_t a = 0; a < D; ++a) {
+      const Lanes u = giving.of(s.velocity[a]) + leaving.offset * slopes[a];
+      put(Content::momentum + a, mass * u), kinetic += 0.5 * mass * u * u;
+    }
+    put(Content::energy, heat * leaving.heat_kept + kinetic);
+  });
+  return flattened;
+}
+
+}  // namespace
+
+void find_donors(Gas& gas) {
+  Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
+  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  const auto first = [&](std::size_t r) { return Content::momentum + D + per_fluid * r; };
+  // From what a cell holds after the Lagrangian phase.
+  const auto write = [&](auto&& held, const auto& volume, auto&& put) {
+    auto mass = held(first(0) + Content::mass);
+    for (std::size_t r = 1; r < fluids; ++r) mass += held(first(r) + Content::mass);
+    auto kinetic = 0.0 * mass;
+    for (std::size_t a = 0; a < D; ++a) {
+      const auto p = held(Content::momentum + a);
+      const auto u = p / mass;
+      kinetic += 0.5 * p * u;
+      put(s.velocity[a], u);
+    }
+    put(s.density, mass / volume);
+    if (fluids == 1) return put(s.energy, (held(Content::energy) - kinetic) / volume);
+    auto internal = 0.0 * mass;
+    for (std::size_t r = 0; r < fluids; ++r) {
+      using Real = std::decay_t<decltype(mass)>;
+      const Real own = held(first(r) + Content::volume), own_mass = held(first(r) + Content::mass);
+      const auto present = (own > least_fraction * volume) & (own_mass > 0.0);
+      const Real divisor = select(present, own, Real(1.0)), heat = held(first(r) + Content::internal);
+      internal += heat;
+      put(s.part[r], select(present, Real(own / volume), Real(0.0)));
+      put(s.fluid_density[r], Real(own_mass / divisor)), put(s.fluid_energy[r], Real(heat / divisor));
+    }
+    put(s.energy, internal / volume);
+  };
+  for_each_eight(w, [&](std::size_t n) {
+    const Lanes open = at(bodies.space.volume, n) / whole_volumes(gas.cells, w, n);
+    write([&](std::size_t q) { return open * at(s.content[q], n) + at(s.change[q], n); }, at(s.volume, n),
+          [&](Column& column, const Lanes& value) { value.store(column.data() + n); });
+  });
+  std::vector<double> merged(bodies.small.small.size());
+  for (std::size_t i = 0; i < bodies.small.small.size(); ++i) {
+    const Neighbourhood& hood = bodies.small.small[i];
+    const auto sum = [&](auto&& of) {
+      double total = 0.0;
+      for (int m = 0; m < hood.count; ++m) total += of(hood.members[static_cast<std::size_t>(m)]);
+      return total;
+    };
+    const auto held = [&](std::size_t q) {
+      return sum([&](std::size_t n) {
+        return bodies.space.volume[n] / whole_cell(gas.cells, w.index(n)[0]).volume * s.content[q][n] + s.change[q][n];
+      });
+    };
+    merged[i] = sum([&](std::size_t n) { return s.volume[n]; });
+    write(held, merged[i], [&](Column& column, double value) { column[hood.cell] = value; });
+  }
+  for (std::size_t i = 0; i < merged.size(); ++i) s.volume[bodies.small.small[i].cell] = merged[i];
+}
+
+bool nothing_is_overdrawn(Gas& gas, double dt) {
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  const StepFields& s = bodies.fields;
+  bool good = true;
+  for (const std::int32_t b : gas.cells.mine)
+    for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
+      const Index index = gas.cells.index(static_cast<std::size_t>(b), c);
+      if (!gas.cells.contains(index)) continue;
+      const std::size_t n = w.at(index);
+      if (bodies.small.number[n] >= 0 || (bodies.space.volume[n] == 0.0 && bodies.next_space.volume[n] == 0.0)) continue;
+      double out = 0.0;
+      for (std::size_t a = 0; a < static_cast<std::size_t>(w.dimensions); ++a)
+        out += std::max(s.flow[a][n + offset(w, a)], 0.0) - std::min(s.flow[a][n], 0.0);
+      constexpr double most = 0.9;
+      if (dt * out <= most * s.volume[n] && s.volume[n] > least_room * bodies.space.volume[n]) continue;
+      gas.marks.cell(static_cast<std::size_t>(b), 0, c) = 1.0, good = false;
+    }
+  return good;
+}
+
+std::int64_t remap(Gas& gas, double dt) {
+  Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  std::int64_t flattened = 0;
+  for (std::size_t a = 0; a < D; ++a) flattened += find_passing(gas, dt, a);
+  for_each_eight(w, [&](std::size_t n) {
+    const Lanes whole = whole_volumes(gas.cells, w, n);
+    const Lanes before = at(bodies.space.volume, n) / whole, after = at(bodies.next_space.volume, n) / whole;
+    for (std::size_t q = 1; q < s.content.size(); ++q) {
+      Lanes change = at(s.change[q], n);
+      for (std::size_t a = 0; a < D; ++a) change -= at(s.passing[a][q], n + offset(w, a)) - at(s.passing[a][q], n);
+      change.store(s.change[q].data() + n);
+      const Lanes held = at(s.content[q], n);
+      // Nothing changes, to the last bit, where nothing happens.
+      const Lanes next = select(before > 0.0, held + (change - held * (after - before)) / after, change / after);
+      select(after > 0.0, next, held).store(s.content[q].data() + n);
+    }
+  });
+  return flattened;
+}
+
+void redistribute_all(Gas& gas, std::vector<double>& entrapped, Meeting& meeting) {
+  Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  for (std::size_t q = 1; q < s.content.size(); ++q) {
+    Column& held = s.content[q];
+    for (const std::size_t n : bodies.small.shared) {
+      const double whole = whole_cell(gas.cells, w.index(n)[0]).volume;
+      const bool covered = bodies.next_space.volume[n] == 0.0;
+      s.mean[n] = held[n] / whole;
+      s.covered[n] = covered ? bodies.space.volume[n] / whole * held[n] + s.change[q][n] : 0.0;
+    }
+    std::vector<double> first;
+    for (const std::size_t n : bodies.small.shared) first.push_back(s.mean[n]);
+    redistribute(w, bodies.small, bodies.next_space.volume, s.mean, s.covered);
+    for (std::size_t k = 0; k < bodies.small.shared.size(); ++k) {
+      const std::size_t n = bodies.small.shared[k];
+      held[n] += whole_cell(gas.cells, w.index(n)[0]).volume * (s.mean[n] - first[k]);
+    }
+    for (const Neighbourhood& hood : bodies.small.small) {
+      if (hood.count > 1 || bodies.next_space.volume[hood.cell] > 0.0) continue;
+      const Index cell = w.index(hood.cell);
+      if (!gas.cells.contains(cell) || !gas.cells.find(cell)) continue;
+      if (q == Content::energy) note_bodies_around(bodies, cell, meeting);
+      if (q == Content::energy)
+        entrapped.back() += s.covered[hood.cell];
+      else if (q < Content::momentum + D)
+        entrapped[gas.fluids.size() + q - Content::momentum] += s.covered[hood.cell];
+      else if ((q - Content::momentum - D) % per_fluid == Content::mass)
+        entrapped[(q - Content::momentum - D) / per_fluid] += s.covered[hood.cell];
+    }
+  }
+}
+
+}  // namespace brisance::simulator::gas::unsplit
