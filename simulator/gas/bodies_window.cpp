@@ -7,6 +7,7 @@
 #include "simulator/domain/message.hpp"
 #include "simulator/gas/bodies_step.hpp"
 #include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/ghosts.hpp"
 
 namespace brisance::simulator::gas::unsplit {
 namespace {
@@ -179,11 +180,25 @@ void fill_beyond(Gas& gas) {
       if (edge.kind == EdgeKind::wall) return;
       Vector x{};
       for (std::size_t b = 0; b < static_cast<std::size_t>(w.dimensions); ++b) x[b] = (cell[b] + 0.5) * cells.cell_size;
+      const double outwards = (cell[a] < lower ? -1.0 : 1.0) * s.primitive[Primitive::velocity + a][source];
+      const double part = share_of_beyond(edge.kind, outwards / s.primitive[Primitive::sound_speed][source]);
+      if (part == 0.0) return;
       const Filling beyond = edge.beyond(x, gas.time);
       if (edge.kind == EdgeKind::pressure)
         s.primitive[Primitive::pressure][n] = beyond.pressure;
       else
         write_state(gas, beyond, cell, n);
+      if (part == 1.0) return;
+      Vector velocity{};
+      for (std::size_t b = 0; b < static_cast<std::size_t>(w.dimensions); ++b)
+        velocity[b] = s.primitive[Primitive::velocity + b][n];
+      const double density = s.primitive[Primitive::density][n];
+      for (std::vector<Column>* columns : {&s.primitive, &s.content})
+        for (Column& column : *columns) column[n] = part * column[n] + (1.0 - part) * column[source];
+      const double of_velocity = part * density / s.primitive[Primitive::density][n];  // momentum is mixed
+      for (std::size_t b = 0; b < static_cast<std::size_t>(w.dimensions); ++b)
+        s.primitive[Primitive::velocity + b][n] =
+            std::lerp(s.primitive[Primitive::velocity + b][source], velocity[b], of_velocity);
     };
     Part low = all, high = all;
     low.upper[a] = std::min(lower, all.upper[a]), high.lower[a] = std::max(upper, all.lower[a]);

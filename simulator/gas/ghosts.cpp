@@ -1,5 +1,7 @@
 #include "simulator/gas/ghosts.hpp"
 
+#include <algorithm>
+
 #include "simulator/gas/equilibrium.hpp"
 
 namespace brisance::simulator::gas {
@@ -46,6 +48,41 @@ void fill_ghosts(const Gas& gas, CellSet& set, int first_component, F&& otherwis
   }
 }
 
+/// Part of what lies beyond an open side that a cell feels which the gas leaves through it: see share_of_beyond.
+double felt(const Gas& gas, const Edge& edge, const GhostSide& side, const Ghost& ghost) {
+  const std::size_t block = index(ghost.source_block);
+  const double outwards = -side.inward * gas.primitive.cell(block, Primitive::velocity + side.axis, ghost.source_cell);
+  return share_of_beyond(edge.kind, outwards / gas.primitive.cell(block, Primitive::sound_speed, ghost.source_cell));
+}
+/// What is in a ghost cell becomes a mean with what is next to the side.
+void mix(CellSet& set, const Ghost& g, double part) {
+  if (part == 1.0) return;
+  for (int q = 0; q < set.quantities(); ++q) {
+    const double inside = set.cell(index(g.source_block), q, g.source_cell);
+    double& there = set.cell(index(g.block), q, g.cell);
+    there = part > 0.0 ? part * there + (1.0 - part) * inside : inside;
+  }
+}
+/// Part of the velocity beyond, where of the density there is a part: momentum is mixed, so thin gas at rest beyond does not
+/// hold up what flows into it.
+double part_of_velocity(double part, double density, double mixed_density) {
+  return part == 1.0 ? 1.0 : part * density / mixed_density;
+}
+void mix_primitives(Gas& gas, const Ghost& g, double part) {
+  CellSet& set = gas.primitive;
+  const std::size_t block = index(g.block);
+  const double density = set.cell(block, Primitive::density, g.cell);
+  Vector velocity{};
+  for (int a = 0; a < gas.dimensions(); ++a)
+    velocity[static_cast<std::size_t>(a)] = set.cell(block, Primitive::velocity + a, g.cell);
+  mix(set, g, part);
+  const double of_velocity = part_of_velocity(part, density, set.cell(block, Primitive::density, g.cell));
+  for (int a = 0; a < gas.dimensions(); ++a) {
+    const double inside = set.cell(index(g.source_block), Primitive::velocity + a, g.source_cell);
+    set.cell(block, Primitive::velocity + a, g.cell) = inside + of_velocity * (velocity[static_cast<std::size_t>(a)] - inside);
+  }
+}
+
 /// The state beyond an edge of what was in a ghost cell before it moved for some time (s) along each axis. The cells of a step
 /// move with the gas, and so do the ghosts.
 Filling moved_beyond(const Gas& gas, const Edge& edge, const Ghost& ghost, double time, const Vector& moved) {
@@ -57,20 +94,31 @@ Filling moved_beyond(const Gas& gas, const Edge& edge, const Ghost& ghost, doubl
 
 }  // namespace
 
+double share_of_beyond(EdgeKind kind, double outward_mach) {
+  if (kind == EdgeKind::inflow) return 1.0;
+  const double mach = std::clamp(outward_mach, 0.0, 1.0);
+  return 1.0 - mach * mach;
+}
+
 void share_primitives(Gas& gas, double time, Domain& domain) {
   CellSet& set = gas.primitive;
   share(gas.cells, set, domain);
   fill_ghosts(gas, set, Primitive::velocity, [&](const Edge& edge, const GhostSide& side) {
     if (edge.kind == EdgeKind::pressure) {
       copy(set, side.nearest, -1);
-      for (const Ghost& g : side.nearest)
-        set.cell(index(g.block), Primitive::pressure, g.cell) =
-            edge.beyond(gas.cells.centre(index(g.block), g.cell), time).pressure;
+      for (const Ghost& g : side.nearest) {
+        double& pressure = set.cell(index(g.block), Primitive::pressure, g.cell);
+        const double part = felt(gas, edge, side, g);
+        const double beyond = edge.beyond(gas.cells.centre(index(g.block), g.cell), time).pressure;
+        pressure = part == 1.0 ? beyond : part * beyond + (1.0 - part) * pressure;
+      }
       return;
     }
     for (const Ghost& g : side.nearest) {
       const Filling beyond = edge.beyond(gas.cells.centre(index(g.block), g.cell), time);
       write_primitive(gas, index(g.block), g.cell, beyond);
+      const double part = felt(gas, edge, side, g);
+      if (part < 1.0) mix_primitives(gas, g, part);
     }
   });
   for (std::size_t s = 0; s < gas.cells.sides.size(); ++s)
@@ -86,14 +134,19 @@ void share_half_step(Gas& gas, double dt, Domain& domain) {
     moved[static_cast<std::size_t>(side.axis)] = 0.5 * dt;
     for (const Ghost& g : side.nearest) {
       const std::size_t block = index(g.block);
+      const double part = felt(gas, edge, side, g);
+      if (part == 0.0) continue;
+      const Filling now = edge.beyond(gas.cells.centre(block, g.cell), gas.time);
       const Filling beyond = moved_beyond(gas, edge, g, gas.time + 0.5 * dt, moved);
-      const auto change = [&](int quantity, int primitive, double value) {
-        set.cell(block, quantity, g.cell) = value - gas.primitive.cell(block, primitive, g.cell);
+      const auto change = [&](int quantity, double of_it, double before, double after) {
+        double& inside = set.cell(block, quantity, g.cell);
+        inside = of_it == 1.0 ? after - before : of_it * (after - before) + (1.0 - of_it) * inside;
       };
-      change(HalfStep::pressure, Primitive::pressure, beyond.pressure);
+      change(HalfStep::pressure, part, now.pressure, beyond.pressure);
       if (edge.kind == EdgeKind::pressure) continue;
-      for (int a = 0; a < gas.dimensions(); ++a)
-        change(HalfStep::velocity + a, Primitive::velocity + a, beyond.velocity[static_cast<std::size_t>(a)]);
+      const double of_velocity = part_of_velocity(part, now.density, gas.primitive.cell(block, Primitive::density, g.cell));
+      for (std::size_t a = 0; a < static_cast<std::size_t>(gas.dimensions()); ++a)
+        change(HalfStep::velocity + static_cast<int>(a), of_velocity, now.velocity[a], beyond.velocity[a]);
     }
   });
 }
@@ -103,8 +156,10 @@ void share_moved(Gas& gas, double time, const Vector& moved, Domain& domain) {
   share(gas.cells, set, domain);
   fill_ghosts(gas, set, Content::momentum, [&](const Edge& edge, const GhostSide& side) {
     if (edge.kind == EdgeKind::pressure) return copy(set, side.nearest, -1);
-    for (const Ghost& g : side.nearest)
+    for (const Ghost& g : side.nearest) {
       write_content(gas, set, index(g.block), g.cell, moved_beyond(gas, edge, g, time, moved));
+      mix(set, g, felt(gas, edge, side, g));
+    }
   });
 }
 

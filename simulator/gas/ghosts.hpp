@@ -5,6 +5,12 @@
 
 namespace brisance::simulator::gas {
 
+/// Part of the state beyond an open side that the gas next to it feels, which leaves through it at some Mach number (negative:
+/// comes in); of the rest it is as inside. Nothing runs up a flow that leaves faster than its sound. The way there is as smooth
+/// as in the relaxation of outgoing waves (Poinsot & Lele, J. Comput. Phys. 101 (1992) 104), so that no flow that is choked at
+/// the side falls from one state to the other. What is said to flow in is felt whole.
+double share_of_beyond(EdgeKind kind, double outward_mach);
+
 /// After the equilibrium: primitives of halo and ghosts at a time (s).
 void share_primitives(Gas& gas, double time, Domain& domain);
 /// What the first half of a step of dt (s) changes there.

@@ -1,0 +1,118 @@
+// What flows out of the box through sides that are open.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/simulator/gas/bodies_set_up.hpp"
+#include "tests/simulator/gas/exact_riemann.hpp"
+#include "tests/simulator/gas/set_up.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+using set_up::Stepper;
+
+constexpr EdgeKind outlets[] = {EdgeKind::pressure, EdgeKind::non_reflecting};
+std::string name_of(EdgeKind kind) {
+  return std::string(choices<EdgeKind>[static_cast<std::size_t>(kind)]);
+}
+
+/// Largest change of a uniform stream that leaves through the high sides of a box into other states.
+struct Way {
+  int dimensions = 1;
+  bool implicit = false, with_body = false;  // the body: a plate that the stream glides along
+};
+double change_of_stream(const Way& way, EdgeKind kind, double outside) {
+  constexpr int steps = 100, cells = 20;
+  constexpr double h = 1.0 / cells, c = 1.1832159566199232;  // sound
+  const auto domain = single_process();
+  Gas gas = set_up::box(way.dimensions == 1 ? Geometry::planar_1d : Geometry::plane, h, {}, {cells, cells, 0},
+                        {set_up::ideal_gas()}, *domain);
+  gas.implicit = way.implicit, gas.acoustic_courant = 2.0;
+  const Filling stream{0, 1.0, 1.0, {1.5 * c, way.dimensions == 1 || way.with_body ? 0.0 : 1.3 * c, 0.0}};
+  for (std::size_t s = 0; s < gas.edges.size(); ++s)
+    gas.edges[s] = s % 2 == 0 ? set_up::beyond(EdgeKind::inflow, stream)
+                              : set_up::beyond(kind, Filling{0, outside, outside, {-1.0, 2.0, 0.0}});
+  if (way.with_body) {
+    gas.edges[2] = gas.edges[3] = set_up::wall();
+    gas.bodies.all = {set_up::body_of(Geometry::plane, h, {0.5, 0.0, 0.0}, 1.0, [](const Vector& x) { return x[1] < 0.23; })};
+  }
+  fill(
+      gas, [&](const Vector&, double) { return stream; }, *domain);
+  Stepper().steps(gas, steps, *domain);
+  double worst = 0.0;
+  set_up::for_each_cell(gas, [&](const set_up::Cell& at) {
+    if (open_part(gas, at.block, at.number) == 0.0) return;
+    worst =
+        std::max({worst, std::abs(at.density - 1.0), std::abs(at.pressure - 1.0), magnitude(at.velocity - stream.velocity)});
+  });
+  return worst;
+}
+
+TEST(OutflowFasterThanSound, StaysWhatItIsWhateverLiesBeyond) {
+  constexpr double round_off = 1e-12;
+  for (const Way& way : {Way{1}, Way{2}, Way{1, true}, Way{2, true}, Way{2, false, true}})
+    for (const EdgeKind kind : outlets)
+      for (const double outside : {0.01, 5.0, 100.0})
+        EXPECT_LT(change_of_stream(way, kind, outside), round_off)
+            << way.dimensions << "-D, " << name_of(kind) << ", " << outside << " Pa beyond"
+            << (way.implicit ? ", implicit" : "") << (way.with_body ? ", with a body" : "");
+}
+
+/// Pressure next to the end of a tube that opens into a thin gas, from half time on.
+struct AtTheEnd {
+  double mean = 0.0, roughest = 0.0;  // Pa; roughest: change from step to step
+};
+AtTheEnd opened_tube(EdgeKind kind, double mach, const Filling& outside) {
+  constexpr int cells = 100;
+  constexpr double end = 0.8;
+  const auto domain = single_process();
+  Gas gas = set_up::box(Geometry::planar_1d, 1.0 / cells, {}, {cells, 0, 0}, {set_up::ideal_gas()}, *domain);
+  const Filling inside{0, 1.4, 1.0, {mach, 0.0, 0.0}};  // the speed of sound is 1
+  gas.edges = {set_up::beyond(EdgeKind::inflow, inside), set_up::beyond(kind, outside)};
+  fill(
+      gas, [&](const Vector&, double) { return inside; }, *domain);
+  AtTheEnd result;
+  Stepper stepper;
+  double before = 0.0, sum = 0.0;
+  int count = 0;
+  for (; gas.time < end; stepper.steps(gas, 1, *domain)) {
+    if (gas.time < 0.5 * end) continue;
+    const double pressure = set_up::profile(gas).back().pressure;
+    if (count > 0) result.roughest = std::max(result.roughest, std::abs(pressure - before));
+    before = pressure, sum += pressure, ++count;
+  }
+  result.mean = sum / count;
+  return result;
+}
+
+TEST(OpenEnd, IsChokedByThinGasBeyond) {
+  // A wave runs back into the tube behind which the gas leaves at the speed of its sound: x/t = 0 of the Riemann problem.
+  constexpr double close = 0.01, steady = 1e-4;
+  for (const EdgeKind kind : outlets)
+    for (const double mach : {0.0, 0.5, 0.9, 0.99, 1.01}) {
+      const Filling outside{0, 0.05, 0.01, {}};
+      const double exact = ExactRiemann({1.4, mach, 1.0}, {0.05, 0.0, 0.01}).at(0.0).pressure;
+      const AtTheEnd found = opened_tube(kind, mach, outside);
+      const std::string where = name_of(kind) + ", Mach " + std::to_string(mach);
+      EXPECT_NEAR(found.mean / exact, 1.0, close) << where;
+      EXPECT_LT(found.roughest, steady) << where;
+      RecordProperty(where, std::to_string(found.mean / exact));
+    }
+}
+
+TEST(OpenEnd, HasThePressureBeyondWhereTheGasLeavesSlowerThanSound) {
+  constexpr double close = 1e-3;
+  for (const double mach : {0.0, 0.5})
+    for (const double pressure : {0.9, 1.1}) {
+      const AtTheEnd found = opened_tube(EdgeKind::pressure, mach, Filling{0, 1.4, pressure, {}});
+      EXPECT_NEAR(found.mean / pressure, 1.0, close) << "Mach " << mach << ", " << pressure << " Pa";
+    }
+}
+
+}  // namespace
+}  // namespace brisance::simulator::gas
