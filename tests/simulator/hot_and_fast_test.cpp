@@ -32,40 +32,44 @@ TEST(MoltenBar, AtRestStaysAtRest) {
   }
 }
 
-const std::string coarse = "1.27 mm", fine = "0.635 mm";  // three and six cells in the radius
+struct Fast : testing::TestWithParam<std::tuple<const char*, double>> {};
 
-/// The mass, the highest and the lowest place, and whether every number is finite.
-struct Fast : testing::TestWithParam<std::tuple<const char*, double, std::string>> {};
-
-TEST_P(Fast, BarRunsToItsEndOnAWall) {
-  const auto [name, speed, cell_size] = GetParam();
+/// Runs a bar to its end and returns what the numerical books hold, in parts of the kinetic energy at the start.
+double numerical_part(const char* name, double speed, const std::string& cell_size) {
   Simulation s = set_up(shipped_case(name, {"cell_size=" + cell_size, "solid.0.velocity=[0,-" + std::to_string(speed) + "]"}));
   const double energy = s.ledger.initial.energy;
   run_until(s, 40e-6);
   expect_closed_books(s);
-  const Balance b = balance(s.ledger, internal_energy(s));
-  std::printf("%s at %.0f m/s, %s: numerical books %.2f %% of the kinetic energy\n", name, speed, cell_size.c_str(),
-              100.0 * b.numerical() / energy);
-  // Of the peak of the kinetic energy. The affine motion of a particle keeps the width of its kernel where the metal is
-  // squeezed: that gives m h^2 tr(L^3)/4 per time, up to 9 % of all on the coarse grid and a third of it on the fine one.
-  const double of_the_numerics = cell_size == fine ? 0.03 : 0.10;
-  EXPECT_LT(std::abs(b.numerical()), of_the_numerics * energy);
   EXPECT_LT(s.ledger.state.energy, energy);
   const Particles& ps = s.bodies[0].particles;
   double fastest = 0.0;
   for (int p = 0; p < ps.size; ++p) {
-    for (const Column& c : ps.columns()) ASSERT_TRUE(std::isfinite(ps.set(c.set).at(c.index, p))) << c.name;
+    for (const Column& c : ps.columns()) EXPECT_TRUE(std::isfinite(ps.set(c.set).at(c.index, p))) << c.name;
     fastest = std::max({fastest, std::abs(ps.motion.at(2, p)), std::abs(ps.motion.at(3, p))});
     EXPECT_GT(ps.motion.at(1, p), 0.0) << "no particle goes through the wall";
   }
   // A steady jet leaves at the speed at which it came; the first contact squirts faster.
   EXPECT_GT(fastest, 0.1 * speed);
   EXPECT_LT(fastest, 4.0 * speed);
+  return balance(s.ledger, internal_energy(s)).numerical() / energy;
+}
+
+TEST_P(Fast, BarRunsToItsEndOnAWall) {
+  const auto [name, speed] = GetParam();
+  const double coarse = numerical_part(name, speed, "1.27 mm"), fine = numerical_part(name, speed, "0.635 mm");
+  std::printf("%s at %.0f m/s: numerical books %.2f %% of the kinetic energy on three cells in the radius, %.2f %% on six\n",
+              name, speed, 100.0 * coarse, 100.0 * fine);
+  // The metal leaves in a sheet along the wall that is thinner than a cell. The node inside then carries the normal motion of
+  // all of it with a mass that is too large by the cell over the thickness, and what the sheet keeps of it too long becomes
+  // energy. Of second order from three to six cells: a quarter is left, and half as much more is allowed for.
+  constexpr double thin_sheet = 0.09, unresolved = 0.01;
+  EXPECT_LT(std::abs(coarse), thin_sheet);
+  EXPECT_LT(std::abs(fine), 1.5 * 0.25 * std::max(std::abs(coarse), unresolved));
 }
 
 INSTANTIATE_TEST_SUITE_P(Metals, Fast,
                          testing::Combine(testing::Values("taylor_copper_190_mts", "taylor_4340_208_johnson_cook"),
-                                          testing::Values(500.0, 1000.0, 2000.0), testing::Values(coarse, fine)));
+                                          testing::Values(500.0, 1000.0, 2000.0)));
 
 }  // namespace
 }  // namespace brisance::simulator
