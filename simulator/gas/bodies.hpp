@@ -58,6 +58,7 @@ struct StepFields {
   std::vector<Column> part, fluid_density, fluid_energy;  // of each of several fluids: of the volume, by its own volume
   std::array<std::vector<Column>, 3> passing;             // content through the low faces
   Column covered, mean;                                   // for the redistribution
+  Column rubbing, heat;                                   // m/s, J: of the friction between rows; the heat of several fluids
   Column plain;                                           // 1 where a cell does without slopes, in careful steps
 };
 

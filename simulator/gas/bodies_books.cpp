@@ -44,33 +44,16 @@ bool all_is_well(Gas& gas) {
 }
 
 void book_sides(Gas& gas, double dt) {
-  const Bodies& bodies = gas.bodies;
-  const Window& w = bodies.window;
-  const StepFields& s = bodies.fields;
-  const auto D = static_cast<std::size_t>(w.dimensions);
+  const StepFields& s = gas.bodies.fields;
+  const auto D = static_cast<std::size_t>(gas.dimensions());
   const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
-  for (Passage& passage : gas.passages) {
-    if (passage.side >= 2 * gas.dimensions()) continue;
-    const auto a = static_cast<std::size_t>(passage.side / 2);
-    const bool low = passage.side % 2 == 0;
-    const double sign = low ? 1.0 : -1.0;
-    const Index corner = gas.cells.corner(static_cast<std::size_t>(passage.block));
-    Part layer;
-    for (std::size_t b = 0; b < 3; ++b) {
-      const bool used = b < D;
-      layer.lower[b] = used ? std::max(corner[b], gas.cells.lower[b]) : 0;
-      layer.upper[b] = used ? std::min(corner[b] + line, gas.cells.upper[b]) : 1;
-    }
-    layer.lower[a] = low ? gas.cells.lower[a] : gas.cells.upper[a], layer.upper[a] = layer.lower[a] + 1;
-    for_each_cell_of(layer, [&](const Index& face) {
-      const std::size_t n = w.at(face);
-      passage.step.momentum[a] += sign * dt * bodies.step.area[a][n] * s.pressure[a][n];
-      passage.step.energy += sign * (dt * s.pressure[a][n] * s.flow[a][n] + s.passing[a][Content::energy][n]);
-      for (std::size_t b = 0; b < D; ++b) passage.step.momentum[b] += sign * s.passing[a][Content::momentum + b][n];
-      for (std::size_t r = 0; r < gas.fluids.size(); ++r)
-        passage.step.mass[r] += sign * s.passing[a][Content::momentum + D + per_fluid * r][n];
-    });
-  }
+  for_each_side_face(gas, [&](Passage& passage, double sign, std::size_t a, std::size_t n) {
+    passage.step.momentum[a] += sign * dt * gas.bodies.step.area[a][n] * s.pressure[a][n];
+    passage.step.energy += sign * (dt * s.pressure[a][n] * s.flow[a][n] + s.passing[a][Content::energy][n]);
+    for (std::size_t b = 0; b < D; ++b) passage.step.momentum[b] += sign * s.passing[a][Content::momentum + b][n];
+    for (std::size_t r = 0; r < gas.fluids.size(); ++r)
+      passage.step.mass[r] += sign * s.passing[a][Content::momentum + D + per_fluid * r][n];
+  });
 }
 
 void keep(Gas& gas) {

@@ -1,10 +1,14 @@
 // The Lagrangian phase of a step with bodies: half a step, the faces, and what they do to the cells.
 
+#include <atomic>
+
 #include "simulator/gas/acoustic.hpp"
 #include "simulator/gas/bodies_step.hpp"
 #include "simulator/gas/donor.hpp"
 #include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/friction.hpp"
 #include "simulator/gas/limiter.hpp"
+#include "simulator/gas/transport.hpp"
 
 namespace brisance::simulator::gas::unsplit {
 namespace {
@@ -149,6 +153,73 @@ void push_cells(Gas& gas, double dt) {
   });
 }
 
+void hold_rows_together(Gas& gas, double dt) {
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = gas.bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const bool several = gas.fluids.size() > 1;
+  if (several) std::fill(s.heat.begin(), s.heat.end(), 0.0);
+  const Column &density = s.primitive[Primitive::density], &sound = s.primitive[Primitive::sound_speed];
+  const auto velocity = [&](std::size_t a) -> const Column& { return s.primitive[Primitive::velocity + a]; };
+  const auto whole = [&](std::size_t n) {
+    const Lanes volume = whole_volumes(gas.cells, w, n);
+    return (at(bodies.space.volume, n) == volume) & (at(bodies.next_space.volume, n) == volume);
+  };
+  // What passes through the faces to the low side stands where the remap is to write what passes to the high side.
+  const auto push = [&](std::size_t a, std::size_t b) -> Column& { return s.passing[a][Content::momentum + b]; };
+  const auto energy = [&](std::size_t a) -> Column& { return s.passing[a][Content::energy]; };
+  for (std::size_t a = 0; a < D; ++a) {
+    const std::size_t next = offset(w, a);
+    std::atomic<bool> any_shock = false;
+    for_each_eight(w, [&](std::size_t n) {
+      const LanesMask smooth = (at(bodies.step.smooth[a], n) > 0.5) & !first_order(gas, n, n);
+      const Lanes closing = closing_in_shock(w.dimensions, gas.cells.cell_size, dt, at(density, n), at(sound, n),
+                                             at(s.half[HalfStep::pressure], n), slope_at(velocity(a), n, next, smooth));
+      const Lanes rubbing = rubbing_of(closing, at(density, n), at(sound, n));
+      rubbing.store(s.rubbing.data() + n);
+      if (any(rubbing > 0.0)) any_shock.store(true, std::memory_order_relaxed);
+    });
+    for (std::size_t q = Content::energy; q < Content::momentum + D && !any_shock; ++q)
+      std::fill(s.passing[a][q].begin(), s.passing[a][q].end(), 0.0);
+    if (!any_shock) continue;
+    for_each_eight(w, [&](std::size_t n) {
+      const std::size_t l = n - next;
+      const Lanes open = select(whole(l) & whole(n), at(bodies.step.area[a], n), Lanes(0.0));
+      const Lanes impedance = rubbing_impedance(at(density, l), at(density, n), at(s.rubbing, l), at(s.rubbing, n));
+      Lanes work(0.0);
+      for (std::size_t b = 0; b < D; ++b) {
+        const Lanes low = at(velocity(b), l), high = at(velocity(b), n);
+        const Lanes pushed = b == a ? Lanes(0.0) : select(open > 0.0, dt * open * impedance * (high - low), Lanes(0.0));
+        pushed.store(push(a, b).data() + n);
+        work += 0.5 * pushed * (low + high);
+      }
+      work.store(energy(a).data() + n);
+    });
+    for_each_eight(w, [&](std::size_t n) {
+      // Nothing changes, to the last bit, where nothing is rubbed.
+      const auto add = [&](Column& to, const Lanes& more) {
+        select(more == 0.0, at(to, n), at(to, n) + more).store(to.data() + n);
+      };
+      add(s.change[Content::energy], at(energy(a), n + next) - at(energy(a), n));
+      for (std::size_t b = 0; b < D; ++b) {
+        if (b == a) continue;
+        const Lanes low = at(push(a, b), n), high = at(push(a, b), n + next), u = at(velocity(b), n);
+        add(s.change[Content::momentum + b], high - low);
+        if (!several) continue;
+        const Lanes mass = at(density, n) * at(bodies.space.volume, n), pushed = high - low;
+        const Lanes warmed =
+            low * (u - at(velocity(b), n - next)) + high * (at(velocity(b), n + next) - u) - pushed * pushed / mass;
+        add(s.heat, select(mass > 0.0, 0.5 * warmed, Lanes(0.0)));
+      }
+    });
+  }
+  for_each_side_face(gas, [&](Passage& passage, double sign, std::size_t a, std::size_t n) {
+    for (std::size_t b = 0; b < D; ++b) passage.step.momentum[b] -= sign * push(a, b)[n];
+    passage.step.energy -= sign * energy(a)[n];
+  });
+}
+
 void share_changes(Gas& gas) {
   const Bodies& bodies = gas.bodies;
   const Window& w = bodies.window;
@@ -165,7 +236,8 @@ void share_changes(Gas& gas) {
       kinetic_before += before * before, kinetic += after * after;
     }
     const Lanes growth = at(s.volume, n) - volume;
-    const Lanes work = at(s.change[Content::energy], n) - 0.5 * (kinetic - kinetic_before) / mass;
+    const Lanes heat = at(s.heat, n);
+    const Lanes work = at(s.change[Content::energy], n) - 0.5 * (kinetic - kinetic_before) / mass - heat;
     const LanesMask gas_here = volume > 0.0;
     Lanes rest(1.0), largest(0.0);
     for (std::size_t r = 0; r < fluids; ++r) largest = max(largest, at(s.content[first(r) + Content::volume], n));
@@ -184,6 +256,19 @@ void share_changes(Gas& gas) {
       const Lanes part = select(gas_here, select(majority[r], rest, share[r]), Lanes(0.0));
       select(gas_here, part * growth, Lanes(0.0)).store(s.change[first(r) + Content::volume].data() + n);
       select(gas_here, part * work, Lanes(0.0)).store(s.change[first(r) + Content::internal].data() + n);
+    }
+    if (!any(heat != 0.0)) return;
+    // All become warmer by the same.
+    std::vector<Lanes> capacity(fluids);
+    Lanes total(0.0);
+    for (std::size_t r = 0; r < fluids; ++r) {
+      const auto held = [&](std::size_t q) { return open * at(s.content[first(r) + q], n) + at(s.change[first(r) + q], n); };
+      capacity[r] = heat_capacity(gas.fluids[r], held(Content::mass), held(Content::volume));
+      total += capacity[r];
+    }
+    for (std::size_t r = 0; r < fluids; ++r) {
+      Column& change = s.change[first(r) + Content::internal];
+      select(heat != 0.0, at(change, n) + heat * capacity[r] / total, at(change, n)).store(change.data() + n);
     }
   });
 }

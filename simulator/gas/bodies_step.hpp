@@ -26,6 +26,8 @@ LanesMask first_order(const Gas& gas, std::size_t low, std::size_t high);
 void find_faces(Gas& gas, double dt);
 /// What the faces do to each cell before anything is carried along: volume, momentum, energy.
 void push_cells(Gas& gas, double dt);
+/// Friction between the rows of whole cells that a shock runs along (friction.hpp), after the walls have pushed.
+void hold_rows_together(Gas& gas, double dt);
 /// The fluids of a cell share its change of volume and energy by their compressibility.
 void share_changes(Gas& gas);
 
@@ -70,6 +72,26 @@ std::int64_t remap(Gas& gas, double dt);
 void redistribute_all(Gas& gas, std::vector<double>& entrapped, Meeting& meeting);
 
 // bodies_books.cpp
+
+/// Calls f(passage, sign, axis, n) for the faces of own cells on the sides of the box: the sign is that of what enters along
+/// the axis, n the number of the face's high cell.
+template <class F>
+void for_each_side_face(Gas& gas, F&& f) {
+  const auto D = static_cast<std::size_t>(gas.dimensions());
+  for (Passage& passage : gas.passages) {
+    if (passage.side >= 2 * gas.dimensions()) continue;
+    const auto a = static_cast<std::size_t>(passage.side / 2);
+    const bool low = passage.side % 2 == 0;
+    const Index corner = gas.cells.corner(static_cast<std::size_t>(passage.block));
+    Part layer;
+    for (std::size_t b = 0; b < 3; ++b) {
+      layer.lower[b] = b < D ? std::max(corner[b], gas.cells.lower[b]) : 0;
+      layer.upper[b] = b < D ? std::min(corner[b] + line, gas.cells.upper[b]) : 1;
+    }
+    layer.lower[a] = low ? gas.cells.lower[a] : gas.cells.upper[a], layer.upper[a] = layer.lower[a] + 1;
+    for_each_cell_of(layer, [&](const Index& face) { f(passage, low ? 1.0 : -1.0, a, gas.bodies.window.at(face)); });
+  }
+}
 
 /// Whether every own cell with gas has mass and more energy than the coldest gas. Marks those that have not.
 bool all_is_well(Gas& gas);

@@ -20,13 +20,14 @@ void make_room(const Gas& gas, StepFields& s, std::size_t length) {
   const auto contents = static_cast<std::size_t>(gas.contents());
   columns(s.primitive, static_cast<std::size_t>(gas.primitive.quantities()));
   columns(s.content, contents), columns(s.change, contents), columns(s.half, 1 + D);
-  for (Column* c : {&s.volume, &s.density, &s.energy, &s.covered, &s.mean, &s.plain}) c->assign(length, 1.0);
+  for (Column* c : {&s.volume, &s.density, &s.energy, &s.covered, &s.mean, &s.rubbing, &s.plain}) c->assign(length, 1.0);
   for (std::size_t a = 0; a < D; ++a) {
     s.flow[a].assign(length, 0.0), s.pressure[a].assign(length, 0.0), s.velocity[a].assign(length, 0.0);
     columns(s.passing[a], contents);
   }
-  if (gas.fluids.size() > 1)
-    for (auto* all : {&s.part, &s.fluid_density, &s.fluid_energy}) columns(*all, gas.fluids.size());
+  if (gas.fluids.size() == 1) return;
+  s.heat.assign(length, 0.0);
+  for (auto* all : {&s.part, &s.fluid_density, &s.fluid_energy}) columns(*all, gas.fluids.size());
 }
 
 /// How a block's position repeats: all shifts by periods, none among them.

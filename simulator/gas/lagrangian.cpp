@@ -6,6 +6,7 @@
 #include "simulator/gas/acoustic.hpp"
 #include "simulator/gas/donor.hpp"
 #include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/friction.hpp"
 #include "simulator/gas/implicit.hpp"
 #include "simulator/gas/passages.hpp"
 #include "simulator/gas/transport.hpp"
@@ -121,32 +122,19 @@ CellSet& heat_of_friction(Gas& gas) {
   return gas.next;
 }
 
-/// Friction between the rows of cells that a shock runs along: rows that exchange nothing but volume let it run ahead in one
-/// and fall back in the next, and the gas behind it is hot and cold in turn (the carbuncle: Quirk, Int. J. Numer. Meth. Fluids
-/// 18 (1994) 555). A viscosity of the size of the shock's own holds them together (Rodionov, J. Comput. Phys. 345 (2017) 308).
-/// It acts where the gas is compressed, and more along a face than across it: a shock that is oblique to the grid would be
-/// widened, and neither a rarefaction nor a strain that keeps the volume is a shock. How the strength was
-/// chosen is in docs/gas.md.
+/// Friction between the rows of cells that a shock runs along.
 template <int D>
 void hold_rows_together(Gas& gas, std::size_t block, int axis, int n, double dt, const FaceStates<D>& s,
                         const PencilMetric& metric) {
-  constexpr double strength = 0.45;   // of the impedance that belongs to the closing
-  constexpr double threshold = 0.05;  // of the speed of sound; below, it is no shock
-  constexpr double most = 4.0;        // times the compression, however much faster the gas closes in one direction
-  const double to_closing = 2.0 * gas.cells.cell_size / dt;
-  Pencil closing;  // kg/(m s^2) m/s: bulk modulus times the closing across a cell beyond the threshold
+  Pencil closing;
   LanesMask any_shock(false);
   for (std::size_t c = ring - 1; c <= ring + line; ++c) {
-    // Half a step changes the pressure by - rho c^2 div u dt/2.
-    const Lanes modulus = s.density[c] * s.sound[c] * s.sound[c], compression = to_closing * s.half_pressure[c];
-    closing[c] =
-        min(Lanes(most * compression), compression + modulus * (D * s.stretch[c])) - modulus * (threshold * s.sound[c]);
+    closing[c] = closing_in_shock(D, gas.cells.cell_size, dt, s.density[c], s.sound[c], s.half_pressure[c], s.stretch[c]);
     any_shock |= closing[c] > 0.0;
   }
   if (none(any_shock)) return;
-  Pencil rubbing;  // m/s: friction over density and jump of the velocity
-  for (std::size_t c = ring - 1; c <= ring + line; ++c)
-    rubbing[c] = max(Lanes(strength * closing[c] / (s.density[c] * s.sound[c] * s.sound[c])), Lanes(0.0));
+  Pencil rubbing;
+  for (std::size_t c = ring - 1; c <= ring + line; ++c) rubbing[c] = rubbing_of(closing[c], s.density[c], s.sound[c]);
   FacePencil push[D], energy;  // N s, J: through the faces to the low side
   energy.fill(Lanes(0.0));
   const bool several = gas.fluids.size() > 1;
@@ -157,7 +145,7 @@ void hold_rows_together(Gas& gas, std::size_t block, int axis, int n, double dt,
     const Pencil& u = s.velocity[a];
     for (std::size_t f = 0; f < line_faces; ++f) {
       const std::size_t l = ring + f - 1, r = ring + f;
-      const Lanes impedance = min(s.density[l], s.density[r]) * max(rubbing[l], rubbing[r]);
+      const Lanes impedance = rubbing_impedance(s.density[l], s.density[r], rubbing[l], rubbing[r]);
       push[a][f] = dt * metric.area[f] * impedance * (u[r] - u[l]);
       energy[f] += 0.5 * push[a][f] * (u[l] + u[r]);
     }

@@ -294,6 +294,10 @@ void prepare_transport(Gas& gas, Domain& domain) {
   fill_ghosts(gas);
 }
 
+Lanes heat_capacity(const Fluid& fluid, const Lanes& mass, const Lanes& volume) {
+  return warmth_of(fluid, mass, volume, Lanes(0.0)).capacity;
+}
+
 void warm_alike(const Gas& gas, CellSet& set, std::size_t block, int k, const Lanes& heat) {
   Lanes capacity(0.0);
   const std::vector<Warmth> warmths = warmths_of(gas, set, block, k, Lanes(0.0));

@@ -27,6 +27,8 @@ inline bool has_transport(const Gas& gas) {
 /// Coefficients, temperatures and velocity gradients from the state at the start of a step, and the largest rate of diffusion.
 /// Nothing without transport.
 void prepare_transport(Gas& gas, Domain& domain);
+/// J/K, of some cells' share of a fluid.
+Lanes heat_capacity(const Fluid& fluid, const Lanes& mass, const Lanes& volume);
 /// Adds heat (J) to the fluids of some cells of a block, by their heat capacities: all become warmer by the same.
 void warm_alike(const Gas& gas, CellSet& set, std::size_t block, int k, const Lanes& heat);
 /// What viscous stress, conduction and the exchange of heat between fluids do in dt (s) to the cells that have moved.
