@@ -34,8 +34,13 @@ TEST(MoltenBar, AtRestStaysAtRest) {
 
 const std::string coarse = "1.27 mm", fine = "0.635 mm";  // three and six cells in the radius
 
-/// The mass, the highest and the lowest place, and whether every number is finite.
-struct Fast : testing::TestWithParam<std::tuple<const char*, double, std::string>> {};
+/// A case, a speed and a cell size.
+struct Fast : testing::TestWithParam<std::tuple<std::string, double, std::string>> {};
+
+std::string name_of_bar(const testing::TestParamInfo<Fast::ParamType>& info) {
+  const auto& [bar, speed, cell_size] = info.param;
+  return bar + "_at_" + std::to_string(static_cast<int>(speed)) + "_m_per_s_" + (cell_size == fine ? "fine" : "coarse");
+}
 
 TEST_P(Fast, BarRunsToItsEndOnAWall) {
   const auto [name, speed, cell_size] = GetParam();
@@ -44,7 +49,7 @@ TEST_P(Fast, BarRunsToItsEndOnAWall) {
   run_until(s, 40e-6);
   expect_closed_books(s);
   const Balance b = balance(s.ledger, internal_energy(s));
-  std::printf("%s at %.0f m/s, %s: numerical books %.2f %% of the kinetic energy\n", name, speed, cell_size.c_str(),
+  std::printf("%s at %.0f m/s, %s: numerical books %.2f %% of the kinetic energy\n", name.c_str(), speed, cell_size.c_str(),
               100.0 * b.numerical() / energy);
   // Of the peak of the kinetic energy. The affine motion of a particle keeps the width of its kernel where the metal is
   // squeezed: that gives m h^2 tr(L^3)/4 per time, up to 9 % of all on the coarse grid and a third of it on the fine one.
@@ -65,7 +70,8 @@ TEST_P(Fast, BarRunsToItsEndOnAWall) {
 
 INSTANTIATE_TEST_SUITE_P(Metals, Fast,
                          testing::Combine(testing::Values("taylor_copper_190_mts", "taylor_4340_208_johnson_cook"),
-                                          testing::Values(500.0, 1000.0, 2000.0), testing::Values(coarse, fine)));
+                                          testing::Values(500.0, 1000.0, 2000.0), testing::Values(coarse, fine)),
+                         name_of_bar);
 
 }  // namespace
 }  // namespace brisance::simulator
