@@ -44,6 +44,10 @@ void use_threads(int threads) {
 }
 
 int tell(const RunResult& result, const Path& directory) {
+  if (result.ending == Ending::nothing_left) {
+    fmt::print("{}\n", result.message);
+    return done;
+  }
   fmt::print("{}  files: {}\n", in_words(result.summary), directory.string());
   switch (result.ending) {
     case Ending::failed:
