@@ -190,7 +190,7 @@ class CaseReader : public KeyReader<CaseReader> {
       if (in.problem_count() > before) return;
       if (cone.start == cone.end) table.problem("end", "it is where the start is; a solid of revolution has a length");
       if (case_.geometry == Geometry::axisymmetric && (cone.start[0] != 0.0 || cone.end[0] != 0.0))
-        table.problem(cone.start[0] != 0.0 ? "start" : "end", "in the axisymmetric geometry it lies on the axis; give r = 0");
+        table.problem(cone.start[0] != 0.0 ? "start" : "end", "in the axisymmetric geometry it lies on the axis; give x = 0");
     };
     if (form == "difference") {
       Difference difference{read_shape(table, "from", "what is cut"), read_parts(table, "without")};
@@ -203,7 +203,7 @@ class CaseReader : public KeyReader<CaseReader> {
           table.problem("upper", fmt::format("along {} it is {}, not above the lower corner's {}", axis_names[k],
                                              in_metres(box.upper[k]), in_metres(box.lower[k])));
       if (in.problem_count() == before && case_.geometry == Geometry::axisymmetric && box.lower[0] < 0.0)
-        table.problem("lower", "r = " + in_metres(box.lower[0]) + "; a radius is not negative");
+        table.problem("lower", "x = " + in_metres(box.lower[0]) + "; a radius is not negative");
       return make_shape(box);
     }
     if (form == "sphere") {
@@ -211,7 +211,7 @@ class CaseReader : public KeyReader<CaseReader> {
       if (in.problem_count() == before && sphere.inner_radius >= sphere.radius)
         table.problem("inner_radius", "it must be less than the radius");
       if (in.problem_count() == before && case_.geometry == Geometry::axisymmetric && sphere.centre[0] != 0.0)
-        table.problem("centre", "in the axisymmetric geometry it lies on the axis; give r = 0");
+        table.problem("centre", "in the axisymmetric geometry it lies on the axis; give x = 0");
       return make_shape(sphere);
     }
     if (form == "cylinder") {
@@ -290,6 +290,9 @@ class CaseReader : public KeyReader<CaseReader> {
     for (std::size_t k = 0; k < dimensions(); ++k) {
       const double width = extent.upper[k] - extent.lower[k];
       if (!(width > 0.0)) return in.problem("shape", "it fills nothing: its parts do not meet");
+      const double spacing = case_.cell_size / (body.particles_per_direction * samples_per_direction);
+      if (k == 0 && !may_fill(*body.shape, case_.dimensions(), extent, spacing))
+        return in.problem("shape", "it fills nothing: what is taken away leaves no part that could hold a particle");
       if (width < case_.cell_size * (1.0 - round_off))
         return in.problem("shape", fmt::format("along {} it is {} wide, less than one cell of {}", axis_names[k],
                                                in_metres(width), in_metres(case_.cell_size)));
@@ -322,7 +325,7 @@ class CaseReader : public KeyReader<CaseReader> {
     if (case_.geometry == Geometry::axisymmetric && spin != Vector{})
       in.problem("velocity", "in the axisymmetric geometry nothing rotates");
     if (case_.geometry == Geometry::axisymmetric && velocity.translation[0] != 0.0)
-      in.problem("velocity", "in the axisymmetric geometry no body moves along r as a whole; give 0, or `radial`");
+      in.problem("velocity", "in the axisymmetric geometry no body moves along the radius x as a whole; give 0, or `radial`");
   }
 
   void check(TableReader& in, BoundaryConfig& boundary, const std::vector<BoundaryConfig>& others) {
@@ -449,7 +452,7 @@ class CaseReader : public KeyReader<CaseReader> {
       return gauge.kind == GaugeKind::surface && gauge.axis && static_cast<std::size_t>(*gauge.axis) == axis;
     };
     if (case_.geometry == Geometry::axisymmetric && place.upper[0] < 0.0 && !sought_along(0))
-      return in.problem("from", "r = " + in_metres(place.upper[0]) + "; a radius is not negative");
+      return in.problem("from", "x = " + in_metres(place.upper[0]) + "; a radius is not negative");
     for (const BoundaryConfig& b : case_.boundaries) {
       const auto axis = static_cast<std::size_t>(b.axis);
       if (b.side == Side::above ? place.upper[axis] >= b.position : place.lower[axis] <= b.position) continue;

@@ -13,8 +13,10 @@
 #include "models/programs/laws.hpp"
 #include "models/programs/progress.hpp"
 #include "simulator/case_reader.hpp"
+#include "simulator/describe.hpp"
 #include "simulator/dry_run.hpp"
 #include "simulator/keys.hpp"
+#include "simulator/memory_need.hpp"
 #include "simulator/output/fields.hpp"
 #include "simulator/output/run_directory.hpp"
 #include "simulator/run.hpp"
@@ -44,6 +46,10 @@ void use_threads(int threads) {
 }
 
 int tell(const RunResult& result, const Path& directory) {
+  if (result.ending == Ending::nothing_left) {
+    fmt::print("{}\n", result.message);
+    return done;
+  }
   fmt::print("{}  files: {}\n", in_words(result.summary), directory.string());
   switch (result.ending) {
     case Ending::failed:
@@ -59,8 +65,10 @@ int tell(const RunResult& result, const Path& directory) {
   }
 }
 
-/// A simulation from a case. What a shape makes impossible is as bad as a wrong word in the file.
+/// A simulation from a case. What a shape makes impossible is as bad as a wrong word in the file, and so is what does not fit
+/// into memory.
 Simulation set_up_or_refuse(const Case& c) {
+  require_memory(c, available_memory());
   try {
     return set_up(c);
   } catch (const std::runtime_error& error) {
@@ -70,8 +78,9 @@ Simulation set_up_or_refuse(const Case& c) {
 
 int run_case(const Options& o) {
   use_threads(o.threads);
-  const Case c = read_case(o.file, o.overrides);
-  const Path directory = o.directory.empty() ? Path(o.file.stem().string() + "_run") : o.directory;
+  const Path file = find_case(o.file);
+  const Case c = read_case(file, o.overrides);
+  const Path directory = o.directory.empty() ? Path(file.stem().string() + "_run") : o.directory;
   Simulation s = set_up_or_refuse(c);
   prepare_directory(directory, c, o.overwrite);
   for (const std::string& warning : set_up_warnings(c)) fmt::print(stderr, "warning: {}\n", warning);
@@ -116,7 +125,7 @@ int report_run(const Options& o) {
 
 int check_case(const Options& o) {
   use_threads(o.threads);
-  const Case c = read_case(o.file, o.overrides);
+  const Case c = read_case(find_case(o.file), o.overrides);
   Simulation s = set_up_or_refuse(c);
   const DryRun dry = dry_run(c, s);
   fmt::print("{}\n", c.title);
@@ -138,8 +147,10 @@ int list_cases() {
     InputFile input = InputFile::load(file);
     TableReader top = input.top();
     // Others are of the point driver.
-    if (top.has("cell_size")) fmt::print("{}\n  {}\n", file.string(), top.text_or("title", file.stem().string()));
+    if (top.has("cell_size")) fmt::print("{:36} {}\n", file.stem().string(), top.text_or("title", file.stem().string()));
   }
+  fmt::print("`brisance run NAME` runs one of them; their files, to copy and change: {}\n",
+             bundled_cases().front().parent_path().string());
   return done;
 }
 
@@ -159,7 +170,7 @@ int list(const std::string& what) {
   for (const Path& file : bundled_materials()) materials.push_back(file.filename().string());
   row("materials that come with the program", materials);
   fmt::print(
-      "`brisance describe NAME` explains these words, the keys of a case file and the laws of materials, which `pointdriver "
+      "`brisance describe NAME` explains these words and materials, the keys of a case file and the laws, which `pointdriver "
       "list` names; `brisance list cases` names the cases that come with the program\n");
   return done;
 }
@@ -171,14 +182,23 @@ int describe_keys(const std::string& key) {
   }
   std::string suggestion;
   const std::optional<std::string> laws = describe_laws(key, suggestion);
-  const std::vector<KeyDescription> found = find_keys(all_keys(), key);
-  if (found.empty() && !laws) {
+  std::optional<std::string> thing = describe_shape(key);
+  const std::vector<KeyDescription> found = thing ? std::vector<KeyDescription>{} : find_keys(all_keys(), key);
+  if (!thing) thing = describe_material(key);
+  if (found.empty() && !laws && !thing) {
     std::vector<std::string_view> names = names_of(all_keys());
     const std::vector<LawPage> pages = all_laws();
+    const std::vector<std::string> materials = material_names();
     for (const LawPage& page : pages) names.push_back(page.name);
-    fmt::print(stderr, "describe: \"{}\" is no key of a case file and no law{}\n", key, did_you_mean(key, names));
+    names.insert(names.end(), shape_forms.begin(), shape_forms.end());
+    names.insert(names.end(), materials.begin(), materials.end());
+    fmt::print(stderr,
+               "describe: \"{}\" is no key of a case file, no value of one, no shape, no law and no material that comes with "
+               "the program{}\n",
+               key, did_you_mean(key, names));
     return bad_input;
   }
+  if (thing) fmt::print("{}", *thing);
   for (const KeyDescription& k : found) fmt::print("{}", page_of(k));
   if (laws) fmt::print("{}{}", found.empty() ? "" : "\n", *laws);
   return done;
@@ -196,7 +216,7 @@ int run_command_line(int argc, char** argv) {
     command->add_option("--threads", o.threads, "threads; the results do not depend on it")->check(CLI::Range(1, 4096));
   };
   const auto add_case = [&](CLI::App* command) {
-    command->add_option("CASE", o.file, "case file (TOML)")->required();
+    command->add_option("CASE", o.file, "case file (TOML), or a name of `brisance list cases`")->required();
     command->add_option("--set", o.overrides, set_help)->allow_extra_args(false);
     add_threads(command);
   };
@@ -226,8 +246,10 @@ int run_command_line(int argc, char** argv) {
   list_command->add_option("WHAT", o.key, "`cases`: those that come with the program")->check(CLI::IsMember({"cases"}));
   list_command->callback([&] { code = list(o.key); });
 
-  CLI::App* describe_command = app.add_subcommand("describe", "What a key of a case file, one of its values or a law means");
-  describe_command->add_option("KEY", o.key, "path or last name of a key, a table, a value, or a law; without it all keys");
+  CLI::App* describe_command =
+      app.add_subcommand("describe", "What a key of a case file, one of its values, a shape, a law or a material is");
+  describe_command->add_option(
+      "KEY", o.key, "path or last name of a key, a table, a value, a shape, a law, or a material; without it all keys");
   describe_command->callback([&] { code = describe_keys(o.key); });
 
   return exit_code_of([&] {

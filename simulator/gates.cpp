@@ -72,8 +72,10 @@ void check_gates(const GateConfig& limits, const Simulation& s, const Books& boo
   const auto require = [&](std::string_view gate, std::string_view what, double value, double limit, Extensive quantity) {
     if (value <= limit) return;
     const std::string_view unit = unit_of(quantity, s.geometry).text;
-    throw GateExceeded(fmt::format("gate {}: {} is {:.6g} {}, {:.6g} {} at most is allowed; step {}, time {:.6g} s", gate, what,
-                                   value, unit, limit, unit, s.step, s.time));
+    throw GateExceeded(fmt::format(
+        "gate {}: {} is {:.6g} {}, {:.6g} {} at most is allowed; step {}, time {:.6g} s. The results up to the row of "
+        "history.csv before this one met the limit, this one does not: it has gone wrong in between",
+        gate, what, value, unit, limit, unit, s.step, s.time));
   };
   if (books.gas) return check_gas(limits, *books.gas, s, require);
   const Balance& b = books.balance;

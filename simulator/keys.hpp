@@ -344,8 +344,8 @@ template <>
 inline constexpr auto keys<Case> =
     std::tuple{Key{"title", &Case::title, Unit::one, "one line; the name of the file if not given"},
                Key{"geometry", &Case::geometry, Unit::one,
-                   "plane: x, y; axisymmetric: r, z; three_dimensional: x, y, z; of gas alone: planar_1d: x; cylindrical_1d, "
-                   "spherical_1d: r",
+                   "plane: x, y; axisymmetric: x is the radius, y along the axis; three_dimensional: x, y, z; of gas "
+                   "alone: planar_1d: x; cylindrical_1d, spherical_1d: x is the radius",
                    any_value, required},
                Key{"cell_size", &Case::cell_size, Unit::m, "width of a cell of the grid", positive, required},
                Key{"end_time", &Case::end_time, Unit::s, "simulated time at the end", positive, required},

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 #include "models/programs/files.hpp"
 #include "models/programs/progress.hpp"
+#include "simulator/gas/foreseen_meetings.hpp"
 #include "simulator/gates.hpp"
 #include "simulator/output/checkpoint.hpp"
 #include "simulator/output/figures.hpp"
@@ -53,9 +55,10 @@ std::string clock_text(double seconds) {
 
 /// Why a step was too large.
 std::string why_rejected(const Simulation& s, double dt) {
-  if (s.gas.implicit) return "the pressures were not found, or a cell of gas would be left without volume or energy";
-  return s.bodies.empty() ? "a cell of gas would be left without volume or energy, or a thin wall would pass over its gas"
-                          : worst_point(s, dt);
+  const std::string emptied = "more volume or energy would leave a cell of gas than it has";
+  if (s.gas.implicit) return "the iteration for the pressures did not come to its end, or " + emptied;
+  if (!s.bodies.empty()) return worst_point(s, dt);
+  return s.gas.bodies.empty() ? emptied : emptied + ", or gas would get from one side of a thin body to the other";
 }
 
 /// What a run writes, and when.
@@ -72,11 +75,14 @@ class Run {
         row_interval_(c.output.history_interval > 0.0 ? c.output.history_interval : c.end_time / 500.0) {}
 
   RunResult begin() {
-    log_.line(fmt::format("{}: {} {}s, {} threads", case_.title, count_points(s_), name_of_points(s_), omp_get_max_threads()));
+    const int threads = omp_get_max_threads();
+    log_.line(fmt::format("{}: {} {}s, {} thread{}", case_.title, count_points(s_), name_of_points(s_), threads,
+                          threads == 1 ? "" : "s"));
     for (const std::string& warning : set_up_warnings(case_)) log_.line("warning: " + warning);
     if (s_.gas.implicit)
       log_.line(
-          "gas.implicit: the pressures are those of an iteration; last digits depend on its tolerance and on the machine");
+          "gas.implicit: pressures are found by iteration, so the last digits of the results may differ from machine to "
+          "machine; nothing need be done about it");
     return guarded([&] {
       history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), 0);
       add_row();
@@ -91,6 +97,7 @@ class Run {
       return begin();
     }
     const Restored restored = restore_newest(options_.directory, s_, [&](const std::string& trouble) { log_.line(trouble); });
+    if (at_end() && std::filesystem::exists(options_.directory / "summary.json")) return nothing_left();
     log_.set_wall_time_before(restored.progress.wall_time);
     std::filesystem::remove(options_.directory / "summary.json");  // it told of the part before
     log_.line(fmt::format("goes on from {}, step {}, time {:.6g} s", restored.file.string(), s_.step, s_.time));
@@ -115,24 +122,53 @@ class Run {
       result.ending = interrupted_ ? Ending::interrupted : Ending::done;
     } catch (const std::exception& error) {
       result.ending = Ending::failed;
-      if (dynamic_cast<const RunFailure*>(&error) || dynamic_cast<const gas::BodiesMeet*>(&error)) keep_last_state();
-      result.message = fmt::format(
-          "{}\n{}", error.what(),
-          last_checkpoint_.empty() ? "no checkpoint has been written" : "last checkpoint: " + last_checkpoint_.string());
+      const bool good = dynamic_cast<const RunFailure*>(&error) || dynamic_cast<const gas::BodiesMeet*>(&error);
+      result.message = dynamic_cast<const std::bad_alloc*>(&error) ? "there is not enough memory" : error.what();
+      result.message += foreseen_by_now() + "\n" + keep_last_state(good);
     }
     progress_line_.reset();
     finish(result);
     return result;
   }
 
-  /// A run fails between two steps: the state is good, and what is wrong with it can be looked at.
-  void keep_last_state() {
+  /// What was to be foreseen of bodies in the gas explains many a failure; a line for each.
+  std::string foreseen_by_now() const {
+    std::string text;
     try {
-      if (snapshot_times_.empty() || snapshot_times_.back() != s_.time) add_snapshot();
-      add_checkpoint();
-    } catch (const std::exception& error) {
-      log_.line(error.what());
+      for (const gas::ForeseenMeeting& meeting : gas::foreseen_meetings(case_))
+        if (meeting.time <= s_.time + 2.0 * s_.last_time_step) text += "\n" + in_words(meeting);
+    } catch (const std::exception&) {  // it is no more than an explanation
     }
+    return text;
+  }
+
+  /// Leaves the state of a run that has failed to be looked at, and says where. If it is `good` (as it was between two steps),
+  /// or between two steps and there is no other, a checkpoint of it as well.
+  std::string keep_last_state(bool good) {
+    const bool whole = good || !within_step_;
+    std::string kept;
+    try {
+      if (!whole || snapshot_times_.empty() || snapshot_times_.back() != s_.time) add_snapshot();
+      kept = fmt::format("{} is in snapshot {:06} of {}; log.txt there tells the rest",
+                         whole ? "the state at the end" : "the state within the step that failed, only to be looked at,",
+                         snapshot_times_.size() - 1, options_.directory.string());
+      if (history_ && (good || (whole && last_checkpoint_.empty()))) add_checkpoint();
+    } catch (const std::exception& error) {
+      log_.line(fmt::format("the state at the end could not be kept: {}", error.what()));
+    }
+    return (last_checkpoint_.empty() ? "no checkpoint has been written" : "last checkpoint: " + last_checkpoint_.string()) +
+           (kept.empty() ? "" : "\n" + kept);
+  }
+
+  RunResult nothing_left() {
+    RunResult result;
+    result.ending = Ending::nothing_left;
+    result.message = fmt::format(
+        "{}: nothing was left to do: the run has come to {:.6g} s, and its end is at {:.6g} s{}. To go on, name a later time: "
+        "brisance resume {} --until \"{:.6g} s\"",
+        options_.directory.string(), s_.time, end_, options_.until ? " (--until)" : "", options_.directory.string(),
+        2.0 * s_.time);
+    return result;
   }
 
   void loop() {
@@ -143,7 +179,9 @@ class Run {
         break;
       }
       const double before = s_.time;
+      within_step_ = true;
       advance_one_step();
+      within_step_ = false;
       if (count(s_.time, row_interval_) > count(before, row_interval_)) add_row();
       if (count(s_.time, case_.output.snapshot_interval) > count(before, case_.output.snapshot_interval)) add_snapshot();
       if (checkpoint_is_due(before)) add_checkpoint();
@@ -173,7 +211,7 @@ class Run {
       if (advance(s_, size.dt) == StepOutcome::done) return;
       constexpr int most_lines = 100;
       if (++rejections_ <= most_lines)
-        log_.line(fmt::format("step {} at {:.6g} s: rejected with {:.4g} s; {}", s_.step + 1, s_.time, size.dt,
+        log_.line(fmt::format("step {} at {:.6g} s: {:.4g} s are too much, half is tried; {}", s_.step + 1, s_.time, size.dt,
                               why_rejected(s_, size.dt)));
     }
   }
@@ -252,7 +290,7 @@ class Run {
   }
 
   static std::string word_of(Ending ending) {
-    constexpr std::array words = {"done", "failed", "interrupted"};
+    constexpr std::array words = {"done", "failed", "interrupted", "done"};
     return words[static_cast<std::size_t>(ending)];
   }
 
@@ -281,6 +319,7 @@ class Run {
   Path last_checkpoint_;
   double row_time_ = -1.0;
   bool interrupted_ = false;
+  bool within_step_ = false;
   int rejections_ = 0;
   std::int64_t first_step_ = 0;
   Clock::time_point started_, last_checkpoint_time_, progress_time_;

@@ -13,7 +13,7 @@
 
 namespace brisance::simulator {
 
-enum class Ending { done, failed, interrupted };
+enum class Ending { done, failed, interrupted, nothing_left };
 
 struct RunOptions {
   std::filesystem::path directory;  // as prepare_directory made it
@@ -24,7 +24,7 @@ struct RunOptions {
 
 struct RunResult {
   Ending ending = Ending::done;
-  std::string message;  // why it failed, with the checkpoint to go on from
+  std::string message;  // why it failed, with the checkpoint to go on from; why nothing was left to do
   Summary summary;
 };
 
@@ -34,7 +34,8 @@ std::string_view name_of_points(const Simulation& s);
 
 /// Runs a simulation that has been set up from the case.
 RunResult run(const Case& c, Simulation& s, const RunOptions& options);
-/// Goes on from the newest checkpoint in the directory; `s` has been set up from the case and gets its state.
+/// Goes on from the newest checkpoint in the directory; `s` has been set up from the case and gets its state. If it has come to
+/// its end already (or to `until`), nothing is done: the ending is nothing_left and the directory stays as it is.
 RunResult resume(const Case& c, Simulation& s, const RunOptions& options);
 /// What the newest checkpoint in a directory says, with figures drawn again; `s` has been set up from the case. The message is
 /// empty if every figure, snapshot and checkpoint is as it should be.

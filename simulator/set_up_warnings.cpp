@@ -11,6 +11,7 @@
 #include "models/update.hpp"
 #include "models/visit.hpp"
 #include "simulator/gas/bodies_setup.hpp"
+#include "simulator/gas/foreseen_meetings.hpp"
 #include "simulator/solid/shapes.hpp"
 
 namespace brisance::simulator {
@@ -132,6 +133,7 @@ std::vector<std::string> set_up_warnings(const Case& c) {
       warnings.push_back(
           fmt::format("{}: {} {}; nothing lights it ([[gas.reaction.ignition]])", reaction.name, reaction.reactant, *reason));
   for (std::string& warning : gas::warnings_of_bodies(c)) warnings.push_back(std::move(warning));
+  for (const gas::ForeseenMeeting& meeting : gas::foreseen_meetings(c)) warnings.push_back(in_words(meeting));
   return warnings;
 }
 

@@ -58,6 +58,31 @@ std::vector<Path> bundled_cases() {
                          "; install them (cmake --install BUILD)"}});
 }
 
+Path find_case(const Path& name) {
+  std::error_code error;
+  if (std::filesystem::is_directory(name, error))
+    throw InputError({{name.string(), 0, 0, "", "it is a directory; the name of a case file is required"}});
+  if (std::filesystem::exists(name, error)) return name;
+  const auto fail = [&](const std::string& why) -> Path {
+    throw InputError({{name.string(), 0, 0, "", "there is no such file" + why}});
+  };
+  if (name.has_parent_path()) return fail("");
+  std::vector<Path> files;
+  try {
+    files = bundled_cases();
+  } catch (const InputError& none) {
+    return fail(std::string("; ") + none.what());
+  }
+  std::vector<std::string> names;
+  for (const Path& file : files) {
+    if (name == file.filename() || name == file.stem()) return file;
+    names.push_back(file.stem().string());
+  }
+  return fail(", and no case of this name comes with the programs" +
+              did_you_mean(name.stem().string(), std::vector<std::string_view>(names.begin(), names.end())) +
+              "; `brisance list cases` names them");
+}
+
 std::optional<Path> find_material(const Path& name, const Path& beside) {
   std::error_code error;
   const Path own = beside / name;

@@ -20,6 +20,10 @@ std::vector<std::filesystem::path> bundled_materials();
 /// The case files in the folder beside that of the materials, by name. Throws InputError if there are none.
 std::vector<std::filesystem::path> bundled_cases();
 
+/// The case file that a name means: a file of this name, else the one of those that come with the programs with this name, with
+/// or without .toml. Throws InputError, with the nearest names, if there is none.
+std::filesystem::path find_case(const std::filesystem::path& name);
+
 /// The file that a name means: one in the folder `beside`, else one that comes with the programs.
 std::optional<std::filesystem::path> find_material(const std::filesystem::path& name, const std::filesystem::path& beside);
 

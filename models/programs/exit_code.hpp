@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <new>
 #include <stdexcept>
 
 #include "models/input/diagnostics.hpp"
@@ -24,6 +25,9 @@ int exit_code_of(F&& f) {
   } catch (const std::invalid_argument& error) {
     fmt::print(stderr, "{}\n", error.what());
     return bad_input;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "there is not enough memory for this; take a coarser case, or a machine with more\n");
+    return failed_while_running;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return failed_while_running;

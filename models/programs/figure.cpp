@@ -39,6 +39,8 @@ std::string plain(const std::string& text) {
   return "\"" + safe + "\"";
 }
 
+constexpr std::string_view area_colour = "#bdbdbd";
+
 std::string style_of(const Curve& curve) {
   const std::string_view colour = palette[static_cast<std::size_t>(curve.colour) % palette.size()];
   if (!curve.half_widths.empty()) return "using 1:2:4:5:3 with boxxyerror fs solid noborder lc palette";
@@ -48,12 +50,16 @@ std::string style_of(const Curve& curve) {
       return fmt::format("using 1:2 with lines lw 2 lc rgb '{}'", colour);
     case Mark::dashed:
       return fmt::format("using 1:2 with lines lw 2 dt (7,4) lc rgb '{}'", colour);
+    case Mark::thin:
+      return fmt::format("using 1:2 with lines lw 1.2 lc rgb '{}'", colour);
     case Mark::points:
       return fmt::format("using 1:2 with points pt 6 ps {} lw 1.2 lc rgb '{}'", curve.size, colour);
     case Mark::squares:
       return fmt::format("using 1:2 with points pt 4 ps {} lw 1.2 lc rgb '{}'", curve.size, colour);
     case Mark::dots:
       return fmt::format("using 1:2 with points pt 7 ps {} lc rgb '{}'", curve.size, colour);
+    case Mark::area:  // with a border, so that nothing shines through between two polygons
+      return fmt::format("using 1:2 with filledcurves closed fc rgb '{0}' fs solid 1.0 border lc rgb '{0}'", area_colour);
   }
   return {};
 }
@@ -96,6 +102,13 @@ std::string tic_step(const Panel& panel) {
   return fmt::format("{:g}", 10.0 * decade);
 }
 
+/// An empty line ends a polygon.
+void send_polygons(Gnuplot& plot, const Curve& curve) {
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    plot << (std::isnan(curve.x[i]) ? std::string("\n") : fmt::format("{:.9g} {:.9g}\n", curve.x[i], curve.y[i]));
+  plot << "e\n";
+}
+
 void draw_panel(Gnuplot& plot, const Panel& panel) {
   plot << "set title " << plain(panel.title) << " font ',12'\n";
   plot << "set xlabel " << quoted_text(panel.x_label) << "\nset ylabel " << quoted_text(panel.y_label) << "\n";
@@ -108,7 +121,7 @@ void draw_panel(Gnuplot& plot, const Panel& panel) {
   plot << (panel.equal_axes ? "set size ratio -1\n" : "set size noratio\n");
   plot << "set cbrange " << range(level_range(panel, [](const Curve& c) { return c.values; })) << "\n";
   if (!panel.scale_label.empty())
-    plot << "set cblabel " << plain(panel.scale_label)
+    plot << "set cblabel " << quoted_text(panel.scale_label)
          << "\nset palette defined (0 '#440154', 1 '#414487', 2 '#2a788e', 3 '#22a884', 4 '#7ad151', 5 '#fde725')\n";
   const bool legend = std::any_of(panel.curves.begin(), panel.curves.end(), [](const Curve& c) { return !c.title.empty(); });
   plot << (panel.legend_width > 0 ? fmt::format("set lmargin 14\nset rmargin {}\n", panel.legend_width)
@@ -133,7 +146,9 @@ void draw_panel(Gnuplot& plot, const Panel& panel) {
       for (std::size_t i = 0; i < curve.x.size(); ++i) points.emplace_back(columns[i]...);
       plot.send1d(points);
     };
-    if (!curve.half_widths.empty())
+    if (curve.mark == Mark::area)
+      send_polygons(plot, curve);
+    else if (!curve.half_widths.empty())
       rows(curve.x, curve.y, curve.values, curve.half_widths, curve.half_heights);
     else if (!curve.values.empty())
       rows(curve.x, curve.y, curve.values);

@@ -13,7 +13,9 @@ namespace brisance {
 /// Curves of as many colours can be told apart.
 inline constexpr std::size_t palette_size = 8;
 
-enum class Mark { line, dashed, points, squares, dots };
+/// `thin` lies over points and lets them be seen. `area` is filled: polygons, one after the other, with a place that is no
+/// number between two of them; such a place interrupts lines, too.
+enum class Mark { line, dashed, thin, points, squares, dots, area };
 
 struct Curve {
   std::string title;  // empty: not in the legend

@@ -1,10 +1,12 @@
 #include "simulator/gas/case_checks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -15,12 +17,22 @@
 #include "simulator/gas/initial_state.hpp"
 #include "simulator/gas/reaction.hpp"
 #include "simulator/gas/transport.hpp"
+#include "simulator/solid/shapes.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
 
 std::size_t dimensions_of(const Case& c) {
   return static_cast<std::size_t>(c.dimensions());
+}
+
+constexpr double least_cells = 4.0;  // across the box
+
+/// Whether the box is one; check_gas says so if not.
+bool holds_cells(const Case& c) {
+  for (std::size_t a = 0; a < dimensions_of(c); ++a)
+    if (!(c.gas->upper[a] - c.gas->lower[a] > (least_cells - 0.5) * c.cell_size)) return false;
+  return c.cell_size > 0.0;
 }
 
 /// Why a fluid has no such state (density in kg/m^3 or, where there is none, temperature in K); empty: it has.
@@ -85,7 +97,7 @@ std::optional<StateProfile> check_profile(TableReader& in, const ProfileConfig& 
     in.problem("profile", fmt::format("there is no {} in this geometry; give a coordinate that it has, or radius",
                                       choices<ProfileAlong>[static_cast<std::size_t>(profile.along)]));
   if (!radius && profile.centre != Vector{}) in.problem("profile", "its centre would be ignored: it is not along radius");
-  if (is_round(c.geometry) && profile.centre[0] != 0.0) in.problem("profile", "its centre lies on the axis; give r = 0");
+  if (is_round(c.geometry) && profile.centre[0] != 0.0) in.problem("profile", "its centre lies on the axis; give x = 0");
   try {
     const StateProfile read = read_state_profile(profile);
     if (!read.velocity_around.empty() && !(radius && c.geometry == Geometry::plane))
@@ -186,6 +198,16 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
   check_gas_state(in, fill, c, elsewhere);
   if (profile && !fill.energy) check_rows(in, fill, *profile, c);
   if (others.empty() && fill.shape) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
+  if (!others.empty() && !fill.shape)
+    in.problem(
+        "without a `shape` it fills all of the box, and nothing is left of those before it; give it one, or put it first");
+  if (fill.shape && holds_cells(c) &&
+      !may_fill(*fill.shape, c.dimensions(), {c.gas->lower, c.gas->upper}, c.cell_size / places_per_direction(c.dimensions())))
+    in.problem("shape",
+               fmt::format("it fills nothing: no part of it lies in the box of the gas, from ({:.6g}) to ({:.6g}) m, or it "
+                           "is too small for cells of {}; move it, make it larger, or take smaller cells",
+                           fmt::join(std::span(c.gas->lower).first(dimensions_of(c)), ", "),
+                           fmt::join(std::span(c.gas->upper).first(dimensions_of(c)), ", "), in_metres(c.cell_size)));
 }
 
 void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& others, const Case& c) {
@@ -287,9 +309,9 @@ void check_gas(TableReader& in, const Case& c) {
                                      in_metres(std::ceil(cells) * c.cell_size)));
     }
     const double cells = (gas.upper[k] - gas.lower[k]) / c.cell_size;
-    constexpr double least = 4.0;
-    if (cells < least - round_off)
-      in.problem("upper", fmt::format("along {} the box is {:.3g} cells wide; {:g} at least", axis_names[k], cells, least));
+    if (cells < least_cells - round_off)
+      in.problem("upper",
+                 fmt::format("along {} the box is {:.3g} cells wide; {:g} at least", axis_names[k], cells, least_cells));
   }
   if (gas.acoustic_courant != GasConfig{}.acoustic_courant && !gas.implicit)
     in.problem("acoustic_courant", "it would be ignored: it is the Courant number of implicit = true");
@@ -301,8 +323,8 @@ void check_gas(TableReader& in, const Case& c) {
   if (gas.scheme == GasScheme::ice_classic) check_classic(in, c);
   check_transport(in, gas);
   const bool round = is_round(c.geometry);
-  if (round && gas.lower[0] < 0.0) in.problem("lower", "r = " + in_metres(gas.lower[0]) + "; a radius is not negative");
-  if (round && c.gravity[0] != 0.0) in.problem("lower", "gravity along r is not possible");
+  if (round && gas.lower[0] < 0.0) in.problem("lower", "x = " + in_metres(gas.lower[0]) + "; a radius is not negative");
+  if (round && c.gravity[0] != 0.0) in.problem("lower", "gravity along the radius x is not possible");
   if (!gas.bodies.empty()) check_with_bodies(in, c);
   for (const EdgeConfig& edge : gas.edges) {
     const auto number = static_cast<std::size_t>(edge.side);
@@ -313,7 +335,7 @@ void check_gas(TableReader& in, const Case& c) {
     if (edge.kind == EdgeKind::periodic && !both)
       in.problem("edge",
                  fmt::format("{} is periodic, {} is not; give both", choices<BoxSide>[number], choices<BoxSide>[number ^ 1]));
-    if (edge.kind == EdgeKind::periodic && round && number < 2) in.problem("edge", "along r nothing is periodic");
+    if (edge.kind == EdgeKind::periodic && round && number < 2) in.problem("edge", "along the radius x nothing is periodic");
     if (round && edge.side == BoxSide::low_x && gas.lower[0] == 0.0 && edge.kind != EdgeKind::wall)
       in.problem("edge", "low_x is the axis; it can be nothing else");
   }

@@ -82,9 +82,10 @@ std::string in_words(const RangeReport& report, int dimensions) {
   const OutsideRange& o = report.outside;
   const bool above = o.density > report.range.highest;
   return fmt::format(
-      "{} was outside of the densities that its equation of state declares in {} cell-steps; farthest: {:.6g} kg/m^3, {} "
-      "{:.6g}, "
-      "at ({:.6g}) m and {:.6g} s",
+      "{} was outside of the densities that its equation of state declares, {} times (cells times steps); farthest: {:.6g} "
+      "kg/m^3, {} {:.6g}, at ({:.6g}) m and {:.6g} s. There its pressure is extrapolated: if that place and time matter to "
+      "you, "
+      "take a law that holds there",
       report.fluid, o.cell_steps, o.density, above ? "above" : "below", above ? report.range.highest : report.range.lowest,
       fmt::join(std::span(o.place).first(static_cast<std::size_t>(dimensions)), ", "), o.time);
 }

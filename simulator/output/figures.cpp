@@ -12,6 +12,7 @@
 #include "models/input/csv.hpp"
 #include "models/programs/figure.hpp"
 #include "simulator/gas/fields.hpp"
+#include "simulator/gas/outline.hpp"
 #include "simulator/output/extensive.hpp"
 #include "simulator/output/fields.hpp"
 #include "simulator/output/gauge_history.hpp"
@@ -59,6 +60,13 @@ std::string in_words(std::string_view field) {
   std::string name(field);
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
+}
+
+/// What a coordinate of the case file, x or y, is in the round geometries: "x, the radius".
+std::string coordinate_label(Geometry geometry, std::string_view coordinate) {
+  const bool round = is_round(geometry);
+  if (round && coordinate == "x") return "x, the radius";
+  return geometry == Geometry::axisymmetric && coordinate == "y" ? "y, along the axis" : std::string(coordinate);
 }
 
 /// From the smallest to the largest value, so that a panel has no empty part; none without one.
@@ -305,8 +313,20 @@ Scale fit(Figure& figure, const Window& w, double margin) {
 struct Tiles {
   Curve points;
   std::string field, unit;
-  bool mirrored = false;  // to be drawn a second time at negative x
+  Curve solid{"", {}, {}, Mark::area}, contour{"", {}, {}, Mark::line, 6};  // of bodies in gas, over the tiles
+  bool mirrored = false;                                                    // to be drawn a second time at negative x
 };
+
+/// The bodies in gas as polygons and lines; between two of them a place that is no number.
+void add_bodies(Tiles& tiles, const gas::Outline& outline) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto add = [&](Curve& curve, const auto& places) {
+    for (const Vector& x : places) curve.x.push_back(x[0]), curve.y.push_back(x[1]);
+    curve.x.push_back(none), curve.y.push_back(none);
+  };
+  for (const auto& polygon : outline.solid) add(tiles.solid, polygon);
+  for (const auto& piece : outline.contour) add(tiles.contour, piece);
+}
 
 Tiles tiles_of_gas(const Simulation& s, const std::string& name) {
   const std::vector<gas::Field> known = gas::fields_of(s.gas);
@@ -323,6 +343,7 @@ Tiles tiles_of_gas(const Simulation& s, const std::string& name) {
   });
   tiles.points.half_widths.assign(tiles.points.x.size(), 0.5 * cells.cell_size);
   tiles.points.half_heights = tiles.points.half_widths;
+  add_bodies(tiles, gas::outline_of(s.gas, slice));
   return tiles;
 }
 
@@ -354,15 +375,15 @@ Tiles tiles_of_solids(const Case& c, const Simulation& s) {
 
 void draw_field(const Case& c, const Simulation& s, const Path& directory) {
   const double h = s.grid.cell_size;
-  const bool axisymmetric = s.geometry == Geometry::axisymmetric;
   Tiles tiles = s.gas.empty() ? tiles_of_solids(c, s) : tiles_of_gas(s, c.output.figure_field);
   Curve& points = tiles.points;
   if (tiles.mirrored)
-    for (std::size_t i = 0, count = points.x.size(); i < count; ++i) {
-      points.x.push_back(-points.x[i]);
-      for (std::vector<double>* same : {&points.y, &points.values, &points.half_widths, &points.half_heights})
-        same->push_back((*same)[i]);
-    }
+    for (Curve* curve : {&points, &tiles.solid, &tiles.contour})
+      for (std::size_t i = 0, count = curve->x.size(); i < count; ++i) {
+        curve->x.push_back(-curve->x[i]);
+        for (std::vector<double>* same : {&curve->y, &curve->values, &curve->half_widths, &curve->half_heights})
+          if (!same->empty()) same->push_back((*same)[i]);
+      }
   Window window;
   for (std::size_t i = 0; i < points.x.size(); ++i)
     for (const double side : {1.0, -1.0})
@@ -370,7 +391,7 @@ void draw_field(const Case& c, const Simulation& s, const Path& directory) {
   Figure figure;
   figure.title = fmt::format("{}: {} at {}", c.title, in_words(tiles.field), in_words(s.time, "s"));
   Panel panel;
-  panel.x_label = axisymmetric ? "r" : "x", panel.y_label = axisymmetric ? "z" : "y";
+  panel.x_label = coordinate_label(s.geometry, "x"), panel.y_label = coordinate_label(s.geometry, "y");
   const Scale values = scale_for(tiles.unit, largest(points.values));
   panel.scale_label = label(in_words(tiles.field), values);
   figure.panels.push_back(panel);
@@ -378,10 +399,12 @@ void draw_field(const Case& c, const Simulation& s, const Path& directory) {
   // Tiles reach a pixel beyond their edges, so that no light shines through between them.
   for (double& half : points.half_widths) half += (window.width() + h) / (figure.panel_width - 190);
   for (double& half : points.half_heights) half += (window.height() + h) / (figure.panel_height - 90);
-  for (std::vector<double>* length : {&points.x, &points.y, &points.half_widths, &points.half_heights})
-    *length = scaled(std::move(*length), lengths.per_si);
   points.values = scaled(std::move(points.values), values.per_si);
-  figure.panels.front().curves.push_back(std::move(points));
+  for (Curve* curve : {&points, &tiles.solid, &tiles.contour}) {
+    for (std::vector<double>* length : {&curve->x, &curve->y, &curve->half_widths, &curve->half_heights})
+      *length = scaled(std::move(*length), lengths.per_si);
+    figure.panels.front().curves.push_back(std::move(*curve));
+  }
   draw(figure, directory / "field.png");
 }
 
@@ -389,7 +412,8 @@ void draw_field(const Case& c, const Simulation& s, const Path& directory) {
 void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, const Path& directory) {
   const LineOut computed = line_out(s, config);
   if (computed.place.empty()) throw std::runtime_error(fmt::format("figure {}: nothing is near its line", config.name));
-  const LineOut reference = config.reference.empty() ? LineOut{} : read_reference(config);
+  LineOut reference = config.reference.empty() ? LineOut{} : read_reference(config);
+  if (!s.gas.bodies.empty()) reference = outside_bodies(reference, computed, s.grid.cell_size);
   const Scale lengths = scale_for("m", std::max(largest(computed.place), largest(reference.place)));
   Figure figure{fmt::format("{}: {} at {}", c.title, config.name, in_words(s.time, "s")), {}, 1, 900, 280};
   for (std::size_t f = 0; f < config.fields.size(); ++f) {
@@ -399,14 +423,14 @@ void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, c
       return Curve{title, scaled(from.place, lengths.per_si), scaled(from.values[f], scale.per_si), mark, colour};
     };
     Panel panel;
-    panel.x_label = label(computed.coordinate, lengths);
+    panel.x_label = label(coordinate_label(s.geometry, computed.coordinate), lengths);
     panel.y_label = label(in_words(field) + (field == "velocity" ? " along " + computed.coordinate : ""), scale);
     legend_beside(panel);
     panel.x_range = extent({&computed.place, &reference.place}, lengths);
+    panel.curves.push_back(curve("computed", computed, Mark::dots, 5));
+    panel.curves.back().size = 0.7;
     if (f < reference.values.size() && !reference.values[f].empty())
-      panel.curves.push_back(curve("reference", reference, Mark::dashed, 1));
-    panel.curves.push_back(curve("computed", computed, Mark::dots, 0));
-    panel.curves.back().size = 0.3;
+      panel.curves.push_back(curve("reference", reference, Mark::thin, 6));  // over the broader dots: both are seen
     figure.panels.push_back(std::move(panel));
   }
   draw(figure, directory / fmt::format("line_{}.png", config.name));

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cerrno>
+#include <cmath>
 #include <stdexcept>
 #include <system_error>
 
@@ -37,6 +39,13 @@ gas::Totals GasBooks::residual() const {
 }
 
 namespace {
+
+/// The angle of a rotation with these rows; in the plane with its sign.
+double angle_of(const std::array<Vector, 3>& turn) {
+  const Vector axis = {turn[2][1] - turn[1][2], turn[0][2] - turn[2][0], turn[1][0] - turn[0][1]};  // 2 sin(angle) times a unit
+  const double angle = std::atan2(magnitude(axis), turn[0][0] + turn[1][1] + turn[2][2] - 1.0);
+  return axis[2] < 0.0 && axis[0] == 0.0 && axis[1] == 0.0 ? -angle : angle;
+}
 
 GasBooks gas_books_of(const Simulation& s) {
   const double whole = whole_of(s.geometry);
@@ -76,7 +85,8 @@ GasBooks gas_books_of(const Simulation& s) {
                             : body.motion.velocity ? body.motion.velocity(s.gas.time)
                                                    : Vector{};
     books.bodies.push_back({body.name, body.state.displacement, velocity, whole * body.force, whole * impulse,
-                            whole * body.work.value(), whole * body.kinetic_energy()});
+                            whole * body.work.value(), whole * body.kinetic_energy(), body.motion.radius, body.state.growth,
+                            angle_of(body.state.turn)});
   }
   return books;
 }

@@ -32,6 +32,8 @@ struct GasBodyBooks {
   Vector displacement{}, velocity{}, force{}, impulse{};  // m, m/s of a driven body, N over the last step, N s
   double work = 0.0;                                      // J
   double kinetic = 0.0;                                   // J, of a driven body
+  double radius = 0.0, growth = 0.0;  // m: of a body that widens or shrinks, where its radial velocity is given, and its change
+  double turned = 0.0;                // rad, within half a turn either way
 };
 
 /// What the gas holds, and what has come in since the start: through each edge and by gravity.

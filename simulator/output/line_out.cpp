@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -121,6 +122,49 @@ LineOut read_reference(const FigureConfig& figure) {
     throw InputError(
         {{csv.path().string(), 0, 0, "",
           fmt::format("none of its columns is drawn; at least one of {} is required", fmt::join(figure.fields, ", "))}});
+  return result;
+}
+
+LineOut outside_bodies(const LineOut& reference, const LineOut& computed, double cell_size) {
+  LineOut result{reference.coordinate, {}, std::vector<std::vector<double>>(reference.values.size())};
+  const std::vector<double>& place = reference.place;
+  const auto add = [&](double x, auto&& value_of) {
+    result.place.push_back(x);
+    for (std::size_t f = 0; f < reference.values.size(); ++f)
+      if (!reference.values[f].empty()) result.values[f].push_back(value_of(reference.values[f]));
+  };
+  const auto add_at = [&](double x, std::size_t i) {  // between rows i and i + 1
+    add(x, [&](const std::vector<double>& column) {
+      return std::lerp(column[i], column[i + 1], (x - place[i]) / (place[i + 1] - place[i]));
+    });
+  };
+  const auto interrupt = [&] {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (!result.place.empty() && !std::isnan(result.place.back())) add(none, [](const auto&) { return none; });
+  };
+  // Where a body begins and ends a row of the reference says, if there is one about there; the cells do if not.
+  const auto face = [&](double cell, double outermost) {
+    const auto nearest = std::min_element(
+        place.begin(), place.end(), [&](double a, double b) { return std::abs(a - outermost) < std::abs(b - outermost); });
+    return nearest != place.end() && std::abs(*nearest - outermost) < cell_size ? *nearest : cell;
+  };
+  std::vector<std::pair<double, double>> gaps;
+  for (std::size_t n = 0; n + 1 < computed.place.size(); ++n) {
+    const double before = computed.place[n], after = computed.place[n + 1];
+    if (after - before > 1.5 * cell_size)
+      gaps.emplace_back(face(before, before + 0.5 * cell_size), face(after, after - 0.5 * cell_size));
+  }
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const auto inside = [&](const auto& gap) { return place[i] > gap.first && place[i] < gap.second; };
+    if (std::none_of(gaps.begin(), gaps.end(), inside)) add(place[i], [&](const auto& column) { return column[i]; });
+    if (i + 1 == place.size()) break;
+    for (const auto& [from, to] : gaps) {
+      if (from >= place[i + 1] || to <= place[i]) continue;
+      if (from > place[i]) add_at(from, i);
+      interrupt();
+      if (to < place[i + 1]) add_at(to, i);
+    }
+  }
   return result;
 }
 

@@ -26,4 +26,8 @@ std::string unit_of_field(const std::string& name);
 /// cannot be read, or has no coordinate or none of the fields.
 LineOut read_reference(const FigureConfig& figure);
 
+/// A reference without what lies inside bodies in the gas: where two neighbouring cells of what was computed are farther apart
+/// than 1.5 cells, the reference is interrupted by a place that is no number. Its places rise.
+LineOut outside_bodies(const LineOut& reference, const LineOut& computed, double cell_size);
+
 }  // namespace brisance::simulator

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "models/programs/files.hpp"
 #include "simulator/output/extensive.hpp"
@@ -16,7 +18,49 @@ std::string unit(Extensive quantity, const Books& books) {
   return std::string(unit_of(quantity, books.geometry).text);
 }
 
-std::string gas_in_words(const Books& all) {
+/// What moves a body in the gas and how it has moved: components along the axes, and what its centre does not show.
+std::string in_words(const GasBodyBooks& body, const Books& all) {
+  const bool round = is_round(all.geometry);
+  const auto components = [&](const char* name, const std::string& unit, const Vector& v) {
+    std::string text = fmt::format("    {:22}", name + (" [" + unit + "]"));
+    for (std::size_t a = round ? 1 : 0; a < static_cast<std::size_t>(number_of_dimensions(all.geometry)); ++a)
+      text += fmt::format("  {} {:12.6g}", "xyz"[a], v[a] + 0.0);  // no -0
+    return text + '\n';
+  };
+  std::string text = fmt::format("  {}\n", body.name);
+  text += components("force of the gas", unit(Extensive::force, all), body.force);
+  text += fmt::format("    {:22}    {:12.6g}\n", "work of the gas [" + unit(Extensive::energy, all) + "]", body.work + 0.0);
+  text += components("its centre moved", "m", body.displacement);
+  if (body.growth != 0.0)
+    text +=
+        fmt::format("    {:22}    {:12.6g}, from {:.6g} to {:.6g}\n", body.growth > 0.0 ? "it widened [m]" : "it shrank [m]",
+                    body.growth, body.radius, body.radius + body.growth);
+  constexpr double degree = std::numbers::pi / 180.0;
+  if (body.turned != 0.0)
+    text += fmt::format("    {:22}    {:12.6g}, and perhaps whole turns\n", "it turned [degrees]", body.turned / degree);
+  return text;
+}
+
+/// Words on what the scheme did less exactly than it could; empty if it never had to.
+std::string caution_in_words(const GasBooks& books, double cells_times_steps) {
+  if (books.plain + books.flattened == 0) return "";
+  constexpr double few = 0.01;
+  const double part = static_cast<double>(books.plain) / std::max(cells_times_steps, 1.0);
+  std::string text = "  caution: ";
+  if (books.plain > 0)
+    text += fmt::format("{} times a cell took a step with first order ({:.2g} % of all cells and steps)", books.plain,
+                        100.0 * part);
+  if (books.flattened > 0)
+    text += fmt::format("{}{} times a change of velocity within a cell was made gentler", books.plain > 0 ? ", " : "",
+                        books.flattened);
+  text += ", or a cell would have lost more energy than it has. There the result is smeared, not wrong; ";
+  return text +
+         (part > few ? "so much of it may show: look where the gas is nearly empty, take smaller cells or steps (gas.courant)"
+                     : "so little of it needs no action") +
+         '\n';
+}
+
+std::string gas_in_words(const Books& all, double cells_times_steps) {
   const GasBooks& books = *all.gas;
   std::string text = fmt::format("  {:24} {:>14} {:>14}\n", "gas", "mass [" + unit(Extensive::mass, all) + "]",
                                  "energy [" + unit(Extensive::energy, all) + "]");
@@ -32,19 +76,16 @@ std::string gas_in_words(const Books& all) {
     text += fmt::format("  {:24} {:14.6g} {:14.6g}\n", "burned by " + reaction.name, reaction.burned + 0.0,
                         reaction.made.energy);  // no -0
   if (books.capped > 0)
-    text += fmt::format("  {} times a cell wanted to burn more than a fifth of itself in a step\n", books.capped);
+    text += fmt::format(
+        "  caution: {} times a cell was not let burn as fast as its law says, for a fifth of a cell may burn in a step at "
+        "most; "
+        "where that delays the front, take a smaller gas.courant\n",
+        books.capped);
   row("in no book", books.residual());
-  if (books.plain + books.flattened > 0)
-    text += fmt::format("  for the sake of positive energies {} cell-steps were first order, {} slopes flatter\n", books.plain,
-                        books.flattened);
+  text += caution_in_words(books, cells_times_steps);
   for (const gas::RangeReport& report : books.outside)
     text += fmt::format("  warning: {}\n", in_words(report, number_of_dimensions(all.geometry)));
-  if (!books.bodies.empty())
-    text += fmt::format("  {:24} {:>14} {:>14} {:>14}\n", "body", "force [" + unit(Extensive::force, all) + "]",
-                        "work [" + unit(Extensive::energy, all) + "]", "moved [m]");
-  for (const GasBodyBooks& body : books.bodies)
-    text += fmt::format("  {:24} {:14.6g} {:14.6g} {:14.6g}\n", body.name, magnitude(body.force), body.work,
-                        magnitude(body.displacement));
+  for (const GasBodyBooks& body : books.bodies) text += in_words(body, all);
   return text;
 }
 
@@ -119,7 +160,7 @@ std::string in_words(const Summary& s) {
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", m.name, shown(m.value), m.measured ? shown(*m.measured) : "",
                         m.measured ? difference(m) : "");
   }
-  if (s.books.gas) return text + gas_in_words(s.books);
+  if (s.books.gas) return text + gas_in_words(s.books, static_cast<double>(s.steps) * static_cast<double>(s.particles));
   const Balance& b = s.books.balance;
   const double peak = s.books.peak_kinetic > 0.0 ? s.books.peak_kinetic : 1.0;
   text += fmt::format("  {:24} {:>14} {:>14}\n", "energy", unit(Extensive::energy, s.books), "of the peak");
@@ -129,9 +170,10 @@ std::string in_words(const Summary& s) {
   row("kinetic, peak", s.books.peak_kinetic), row("kinetic", b.kinetic),
       row("internal, change", b.internal.total - s.books.initial_internal), row("thermal, change", b.internal.thermal);
   row("plastic work", b.internal.plastic_work), row("work from outside", b.external + b.boundary), row("friction", b.friction);
-  row("artificial viscosity", b.internal.viscous_work), row("transfer", b.transfer), row("filter", b.filter);
-  row("heat of the filter", b.filter_heat), row("stress timing", b.stress_timing), row("outflow", b.outflow),
-      row("in no book", b.residual);
+  row("artificial viscosity", b.internal.viscous_work), row("outflow", b.outflow);
+  // Errors of the method; docs/simulator.md says of which kind.
+  row("numerical: transfer", b.transfer), row("numerical: filter", b.filter), row("  of it to heat", b.filter_heat),
+      row("numerical: stress timing", b.stress_timing), row("in no book", b.residual);
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "simulator/solid/shapes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -120,6 +121,29 @@ double filled_fraction(const Shape& shape, Geometry geometry, const Vector& lowe
         if (contains(shape, point)) filled += weight;
       }
   return all > 0.0 ? filled / all : 0.0;
+}
+
+bool may_fill(const Shape& shape, int dimensions, Bounds box, double spacing) {
+  const Bounds own = bounds(shape);
+  std::array<double, 3> first{}, count{1.0, 1.0, 1.0};
+  double all = 1.0;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimensions); ++a) {
+    box.lower[a] = std::max(box.lower[a], own.lower[a]), box.upper[a] = std::min(box.upper[a], own.upper[a]);
+    first[a] = std::ceil(box.lower[a] / spacing - 0.5);
+    count[a] = std::max(std::ceil(box.upper[a] / spacing - 0.5) - first[a], 0.0);
+    all *= count[a];
+  }
+  constexpr double most = 3e6;  // a fraction of a second
+  const double stride = std::max(1.0, std::ceil(std::pow(all / most, 1.0 / dimensions)));
+  for (double k = 0.0; k<count[2]; k += dimensions> 2 ? stride : 1.0)
+    for (double j = 0.0; j<count[1]; j += dimensions> 1 ? stride : 1.0)
+      for (double i = 0.0; i < count[0]; i += stride) {
+        const std::array<double, 3> at{i, j, k};
+        Vector x{};
+        for (std::size_t a = 0; a < static_cast<std::size_t>(dimensions); ++a) x[a] = (first[a] + at[a] + 0.5) * spacing;
+        if (contains(shape, x)) return true;
+      }
+  return stride > 1.0;
 }
 
 Bounds bounds(const Shape& shape, Geometry geometry) {

@@ -26,6 +26,10 @@ inline constexpr int samples_per_direction = 4;
 /// geometry. Exactly 1 or 0 if all of them are inside or outside. In the axisymmetric geometry the box is a ring, 0 <= r.
 double filled_fraction(const Shape& shape, Geometry geometry, const Vector& lower, const Vector& upper, int samples);
 
+/// Whether a shape holds one of the middles of parts of width `spacing` of a box, counted from the origin. Of very many of them
+/// only some are looked at, and where those find nothing the answer is yes.
+bool may_fill(const Shape& shape, int dimensions, Bounds box, double spacing);
+
 /// Volume of a shape (of one metre of depth in the plane geometry, of one radian in the axisymmetric one), from points at most
 /// `spacing` apart, unless they were very many.
 double volume(const Shape& shape, Geometry geometry, double spacing);

@@ -422,6 +422,10 @@ INSTANTIATE_TEST_SUITE_P(
         HostileGas{"temperature = \"300 K\"", "density = 1\ntemperature = \"300 K\"",
                    "gas.fill.0: there are a density and a temperature; give one of the two"},
         HostileGas{"temperature = \"300 K\"\n", "", "gas.fill.0: neither density nor temperature is given"},
+        HostileGas{"centre = [\"5 mm\", \"5 mm\"], radius = \"2 mm\"", "centre = [\"5 mm\", \"5 m\"], radius = \"2 mm\"",
+                   "case.toml:23:9: gas.fill.1.shape: it fills nothing: no part of it lies in the box of the gas"},
+        HostileGas{"shape = { sphere = { centre = [\"5 mm\", \"5 mm\"], radius = \"2 mm\" } }\n", "",
+                   "gas.fill.1: without a `shape` it fills all of the box"},
         HostileGas{"pressure = \"1 atm\"\n", "", "gas.fill.0.pressure: missing"},
         HostileGas{"density = \"2 kg/m^3\"\n", "", "gas.fill.2: neither density nor temperature is given"},
         HostileGas{"density = \"2 kg/m^3\"\n", "density = 2\npressure = 1\n",
@@ -532,7 +536,8 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
        "case.toml:9:12: solid.0.velocity: the list has 3 elements; give a list of 2 elements, each a number in m/s or a text "
        "such as \"4.5 km/s\""},
       {"[0, \"-190 m/s\"]", "[1, \"-190 m/s\"]",
-       "case.toml:9:12: solid.0.velocity: in the axisymmetric geometry no body moves along r as a whole; give 0, or `radial`"},
+       "case.toml:9:12: solid.0.velocity: in the axisymmetric geometry no body moves along the radius x as a whole; give 0, or "
+       "`radial`"},
       {"[0, \"-190 m/s\"]", "{ rotation = [0, 0, 1] }",
        "case.toml:9:12: solid.0.velocity: in the axisymmetric geometry nothing rotates"},
       {"copper_ofhc_mts.toml", "copper_ofhc_mtx.toml", "did you mean \"copper_ofhc_mts.toml\"?"},
@@ -544,7 +549,7 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
       {"{ cylinder = { start = [0, 0], end = [0, \"25.4 mm\"], radius = \"3.81 mm\" } }", "3",
        "case.toml:10:9: solid.0.shape: this is the number 3; a table [solid.0.shape] is required"},
       {"start = [0, 0]", "start = [1, 0]",
-       "solid.0.shape.cylinder.start: in the axisymmetric geometry it lies on the axis; give r = 0"},
+       "solid.0.shape.cylinder.start: in the axisymmetric geometry it lies on the axis; give x = 0"},
       {"\"25.4 mm\"]", "0]", "solid.0.shape.cylinder.end: it is where the start is; a solid of revolution has a length"},
       {"3.81 mm\" } }", "0.2 mm\" } }",
        "case.toml:10:9: solid.0.shape: along x it is 0.0002 m wide, less than one cell of 0.0003175 m"},
@@ -554,6 +559,11 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
       {"{ cylinder = { start = [0, 0], end = [0, \"25.4 mm\"], radius = \"3.81 mm\" } }",
        "{ intersection = [ { box = { lower = [0, 0], upper = [1, 1] } }, { box = { lower = [2, 0], upper = [3, 1] } } ] }",
        "solid.0.shape: it fills nothing: its parts do not meet"},
+      {"{ cylinder = { start = [0, 0], end = [0, \"25.4 mm\"], radius = \"3.81 mm\" } }",
+       "{ difference = { from = { sphere = { centre = [0, 0.1], radius = 0.01 } }, without = [ { box = { lower = [0, 0], upper "
+       "= "
+       "[1, 1] } } ] } }",
+       "case.toml:10:9: solid.0.shape: it fills nothing: what is taken away leaves no part that could hold a particle"},
       {"{ cylinder = { start = [0, 0], end = [0, \"25.4 mm\"], radius = \"3.81 mm\" } }", "{ union = [] }",
        "solid.0.shape.union: a list of shapes is required, with at least one"},
       {"position = 0", "position = \"-1 mm\"",
@@ -612,7 +622,7 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
        "gauge.0.from: it lies beyond the boundary \"rigid_wall_y_above\" at y = 0 m, where there is never any material"},
       {"side = \"above\"\n",
        "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"point\"\nfrom = [\"-1 mm\", 0]\nfields = [\"pressure\"]",
-       "gauge.0.from: r = -0.001 m; a radius is not negative"},
+       "gauge.0.from: x = -0.001 m; a radius is not negative"},
       {"side = \"above\"\n",
        "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"point\"\nfrom = [0, \"26 mm\"]\nfields = [\"pressure\"]",
        "gauge.0.from: it is more than a cell away from all solids; what moves with the material starts in it: give another "

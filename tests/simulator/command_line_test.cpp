@@ -6,7 +6,14 @@
 #include <cstdlib>
 
 #include "models/programs/progress.hpp"
+#include "simulator/case_reader.hpp"
 #include "simulator/commands.hpp"
+#include "simulator/describe.hpp"
+#include "simulator/dry_run.hpp"
+#include "simulator/keys.hpp"
+#include "simulator/memory_need.hpp"
+#include "simulator/run.hpp"
+#include "simulator/setup.hpp"
 #include "tests/simulator/small_bar.hpp"
 
 namespace brisance::simulator {
@@ -118,6 +125,25 @@ TEST(ResumeCommand, GoesOnUntilALaterTimeAndReportTellsTheSame) {
   EXPECT_EQ(call({"resume", directory.string()}).code, bad_input);
 }
 
+TEST(ResumeCommand, OfARunThatHasComeToItsEndSaysSoAndTouchesNothing) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
+                    run = (directory / "run").string();
+  ASSERT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.5 us"}).code, done);
+  const std::string summary = text_of(directory / "run" / "summary.json"), log = text_of(directory / "run" / "log.txt");
+  for (const std::vector<std::string>& until : {std::vector<std::string>{}, {"--until", "0.3 us"}}) {
+    std::vector<std::string> words = {"resume", run};
+    words.insert(words.end(), until.begin(), until.end());
+    const Answer a = call(words);
+    EXPECT_EQ(a.code, done) << a.err;
+    EXPECT_TRUE(contains(a.out, "nothing was left to do: the run has come to 5e-07 s")) << a.out;
+    EXPECT_TRUE(contains(a.out, "brisance resume " + run + " --until")) << a.out;
+    EXPECT_FALSE(contains(a.out, ": done")) << a.out;
+  }
+  EXPECT_EQ(text_of(directory / "run" / "summary.json"), summary);
+  EXPECT_EQ(text_of(directory / "run" / "log.txt"), log);
+}
+
 TEST(RunCommand, AnInterruptedRunWritesACheckpointAndGoesOn) {
   const fs::path directory = scratch();
   const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
@@ -178,6 +204,74 @@ TEST(RunCommand, AFailureIsToldOnce) {
   EXPECT_TRUE(contains(text_of(directory / "run" / "summary.json"), "it runs into the wall"));
 }
 
+TEST(CheckCommand, RefusesWhatDoesNotFitIntoMemoryBeforeItIsAllocated) {
+  const std::string bar = write_text(scratch() / "bar.toml", small_bar()).string();
+  for (const std::vector<std::string>& huge : {std::vector<std::string>{"cylindrical_explosion", "cell_size=1e-8"},
+                                               {"sedov_three_dimensional", "cell_size=1e-5"},
+                                               {bar, "cell_size=1e-10"}})
+    for (const char* command : {"check", "run"}) {
+      const Answer a = call({command, huge[0], "--set", huge[1]});
+      EXPECT_EQ(a.code, bad_input) << a.out;
+      EXPECT_TRUE(contains(a.err, "which need about ") && contains(a.err, " GB are free. Take larger cells, of ")) << a.err;
+      EXPECT_TRUE(contains(a.err, huge[0] == bar ? "particles" : "cells,")) << a.err;
+    }
+}
+
+/// What is foreseen, from numbers alone, against what is there after some steps.
+TEST(MemoryNeed, IsWhatIsTaken) {
+  for (const auto& [name, cell_size] : {std::pair{"sod", "5e-5"},
+                                        {"water_air_shock_tube", "5e-5"},
+                                        {"cylindrical_explosion", "4e-3"},
+                                        {"sedov_three_dimensional", "0.02"},
+                                        {"piston_in_gas", "0.0025"},
+                                        {"taylor_copper_130_mts", "0.1 mm"}}) {
+    const Case c = read_case(fs::path(BRISANCE_SOURCE_DIR) / "data/cases" / (std::string(name) + ".toml"),
+                             {std::string("cell_size=") + cell_size});
+    const MemoryNeed need = memory_need(c);
+    Simulation s = set_up(c);
+    constexpr double about = 0.35;  // small boxes have more ghosts
+    constexpr double cut = 0.05;    // particles that the surface of a body cuts
+    EXPECT_NEAR(need.points, static_cast<double>(count_points(s)), cut * need.points) << name;
+    EXPECT_NEAR(1e-6 * need.bytes / dry_run(c, s).megabytes, 1.0, about) << name;
+  }
+}
+
+TEST(Cases, AreFoundByTheirNames) {
+  const Answer a = call({"check", "sod"});
+  EXPECT_EQ(a.code, done) << a.err;
+  EXPECT_TRUE(contains(a.out, "Shock tube of Sod")) << a.out;
+  EXPECT_EQ(call({"check", "sod.toml"}).code, done);
+  const Answer wrong = call({"run", "sodd"});
+  EXPECT_EQ(wrong.code, bad_input);
+  EXPECT_TRUE(contains(wrong.err, "sodd: there is no such file") && contains(wrong.err, "did you mean \"sod\"?")) << wrong.err;
+  EXPECT_TRUE(contains(call({"check", BRISANCE_SOURCE_DIR "/data/cases"}).err, "it is a directory"));
+}
+
+TEST(DescribeCommand, ExplainsShapesByExamplesThatCanBeRead) {
+  for (const std::string_view form : shape_forms) {
+    const Answer a = call({"describe", std::string(form)});
+    EXPECT_EQ(a.code, done) << a.err;
+    const std::string example(example_of_shape(form));
+    EXPECT_TRUE(contains(a.out, "example: shape = " + example)) << a.out;
+    std::string bar = small_bar();
+    const std::size_t at = bar.find("shape = ");
+    bar.replace(at, bar.find('\n', at) - at, "shape = " + example);
+    EXPECT_NO_THROW(static_cast<void>(read_case(write_text(scratch() / "bar.toml", bar)))) << form;
+  }
+  EXPECT_TRUE(contains(call({"describe", "sphere"}).out, "inner_radius"));
+  EXPECT_TRUE(contains(call({"describe", "spere"}).err, "did you mean \"sphere\"?"));
+}
+
+TEST(DescribeCommand, ExplainsMaterials) {
+  for (const char* name : {"air", "air.toml"}) {
+    const Answer a = call({"describe", name});
+    EXPECT_EQ(a.code, done) << a.err;
+    EXPECT_TRUE(contains(a.out, "equation_of_state/ideal_gas") && contains(a.out, "material = \"air.toml\"")) << a.out;
+  }
+  EXPECT_TRUE(contains(call({"describe", "copper_ofhc_mts"}).out, "example of a solid"));
+  EXPECT_TRUE(contains(call({"describe", "copper_ofhc_mtx"}).err, "did you mean \"copper_ofhc_mts\"?"));
+}
+
 TEST(DescribeCommand, ExplainsKeysAndSuggestsNearOnes) {
   const Answer a = call({"describe", "cell_size"});
   EXPECT_EQ(a.code, done);
@@ -211,7 +305,7 @@ TEST(ListCommand, NamesWhatGasMayHaveAndTheCases) {
     EXPECT_TRUE(contains(a.out, name)) << name;
   const Answer cases = call({"list", "cases"});
   EXPECT_EQ(cases.code, done) << cases.err;
-  EXPECT_TRUE(contains(cases.out, "sod.toml\n  Shock tube of Sod")) << cases.out;
+  EXPECT_TRUE(contains(cases.out, "\nsod ") && contains(cases.out, " Shock tube of Sod\n")) << cases.out;
   EXPECT_FALSE(contains(cases.out, "point_cycle.toml")) << "of the point driver";
   EXPECT_EQ(call({"list", "case"}).code, bad_input);
 }

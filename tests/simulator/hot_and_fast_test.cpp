@@ -32,10 +32,15 @@ TEST(MoltenBar, AtRestStaysAtRest) {
   }
 }
 
-struct Fast : testing::TestWithParam<std::tuple<const char*, double>> {};
+struct Fast : testing::TestWithParam<std::tuple<std::string, double>> {};
+
+std::string name_of_bar(const testing::TestParamInfo<Fast::ParamType>& info) {
+  const auto& [bar, speed] = info.param;
+  return bar + "_at_" + std::to_string(static_cast<int>(speed)) + "_m_per_s";
+}
 
 /// Runs a bar to its end and returns what the numerical books hold, in parts of the kinetic energy at the start.
-double numerical_part(const char* name, double speed, const std::string& cell_size) {
+double numerical_part(const std::string& name, double speed, const std::string& cell_size) {
   Simulation s = set_up(shipped_case(name, {"cell_size=" + cell_size, "solid.0.velocity=[0,-" + std::to_string(speed) + "]"}));
   const double energy = s.ledger.initial.energy;
   run_until(s, 40e-6);
@@ -69,7 +74,8 @@ TEST_P(Fast, BarRunsToItsEndOnAWall) {
 
 INSTANTIATE_TEST_SUITE_P(Metals, Fast,
                          testing::Combine(testing::Values("taylor_copper_190_mts", "taylor_4340_208_johnson_cook"),
-                                          testing::Values(500.0, 1000.0, 2000.0)));
+                                          testing::Values(500.0, 1000.0, 2000.0)),
+                         name_of_bar);
 
 }  // namespace
 }  // namespace brisance::simulator

@@ -612,6 +612,24 @@ TEST(Run, AStepThatCannotBeTakenNamesTheParticleAndLeavesTheLastGoodState) {
   EXPECT_TRUE(fs::exists(r.directory / "bar_particles_000000.hdf"));
 }
 
+/// What fails within a step, before the first checkpoint, leaves a state to look at; it is none to go on from.
+TEST(Run, AFailureOfAnyKindLeavesAStateToLookAtAndSaysWhere) {
+  const SmallRun within("[output]\nfigures = false\n", 1000, [&](Simulation& s) {
+    s.bodies[0].particles.rest.at(Layout<2>::Rest::temperature, 100) = std::numeric_limits<double>::quiet_NaN();
+  });
+  EXPECT_EQ(within.result.ending, Ending::failed);
+  EXPECT_NE(within.result.message.find("64 parts"), std::string::npos) << within.result.message;
+  EXPECT_NE(within.result.message.find("is in snapshot 000000 of " + within.directory.string()), std::string::npos)
+      << within.result.message;
+  EXPECT_TRUE(fs::exists(within.directory / "bar_particles_000000.hdf"));
+  EXPECT_FALSE(has_checkpoint(within.directory));
+  EXPECT_NE(text_of(within.directory / "log.txt").find("64 parts"), std::string::npos);
+
+  const SmallRun between("[gates]\nfastest = \"150 m/s\"\n[output]\nfigures = false\n");
+  EXPECT_TRUE(fs::exists(between.directory / "bar_particles_000000.hdf")) << between.result.message;
+  EXPECT_TRUE(has_checkpoint(between.directory)) << "the state between two steps is whole";
+}
+
 TEST(StepSize, IsThePartOfACellThatAWaveTakes) {
   const fs::path directory = scratch();
   Simulation s = set_up(small_case(directory));

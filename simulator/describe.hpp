@@ -1,0 +1,23 @@
+#pragma once
+// What `brisance describe` tells of shapes and of the materials that come with the program.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace brisance::simulator {
+
+/// The value of a key `shape` with this form, as an example in two dimensions: `{ box = {...} }`.
+std::string_view example_of_shape(std::string_view form);
+
+/// A form of shapes: its keys and an example. Nothing if there is no such form.
+std::optional<std::string> describe_shape(std::string_view form);
+
+/// A material that comes with the program, by the name of its file with or without .toml: name, notes, laws, how to use it.
+std::optional<std::string> describe_material(std::string_view name);
+
+/// The names that describe_material knows.
+std::vector<std::string> material_names();
+
+}  // namespace brisance::simulator

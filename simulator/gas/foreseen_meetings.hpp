@@ -1,0 +1,31 @@
+#pragma once
+// What bodies with a prescribed motion will do at the sides of the box that ends a run: known before it begins.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "simulator/config.hpp"
+
+namespace brisance::simulator::gas {
+
+struct ForeseenMeeting {
+  enum class Kind {
+    runs_into_wall,    // comes within half a cell of it: the gas between has nowhere to go
+    lets_go_of_wall,   // was at the wall and moves off: there is no gas that could widen into the room behind it
+    reaches_open_side  // bodies cannot move through it
+  };
+  std::string body, side;  // by their names in the case
+  Kind kind;
+  double time;     // s
+  double missing;  // m, by which a body that lets go of a wall should reach farther beyond it, to the end of the case
+};
+
+/// In the order of bodies and sides; looks at the motion up to the end of the case. Bodies that the gas drives are in none:
+/// where they go is not known. Empty without gas.
+std::vector<ForeseenMeeting> foreseen_meetings(const Case& c);
+
+/// What happens and what to do.
+std::string in_words(const ForeseenMeeting& meeting);
+
+}  // namespace brisance::simulator::gas

@@ -1,0 +1,99 @@
+// What the prescribed motion of a body says beforehand of its end at a side of the box.
+
+#include "simulator/gas/foreseen_meetings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "simulator/case_reader.hpp"
+#include "tests/command_line.hpp"
+
+namespace brisance::simulator::gas {
+namespace {
+
+using Kind = ForeseenMeeting::Kind;
+
+constexpr double h = 5e-3, speed = 300.0;
+
+/// A tube of 1 m by 50 mm with a piston between two places that moves at 300 m/s for 0.8 ms: by 0.24 m.
+Case tube(const std::string& lower, const std::string& upper, const std::string& velocity, const std::string& more = "") {
+  return read_case(write_text(scratch() / "tube.toml", R"(
+geometry = "plane"
+cell_size = "5 mm"
+end_time = "0.8 ms"
+[gas]
+lower = [0, 0]
+upper = ["1 m", "50 mm"]
+[[gas.fluid]]
+name = "air"
+material = "air.toml"
+[[gas.fill]]
+temperature = "300 K"
+pressure = "1 atm"
+[[gas.body]]
+name = "piston"
+shape = { box = { lower = )" + lower + ", upper = " + upper +
+                                                           " } }\nvelocity = " + velocity + '\n' + more));
+}
+
+TEST(APistonInATube, EndsAtTheWallItRunsInto) {
+  const auto met = foreseen_meetings(tube("[0.7, -0.05]", "[0.9, 0.1]", "[300, 0]"));
+  ASSERT_EQ(met.size(), 1u);
+  EXPECT_EQ(met[0].kind, Kind::runs_into_wall);
+  EXPECT_EQ(met[0].body + " " + met[0].side, "piston high_x");
+  constexpr double rounding = 1e-9;
+  EXPECT_NEAR(met[0].time, (0.1 - 0.5 * h) / speed, rounding);
+  EXPECT_TRUE(contains(in_words(met[0]), "piston: at 0.000325 s it is within half a cell of the wall high_x"));
+}
+
+TEST(APistonInATube, LetsGoOfTheWallWhereItsEndLeavesIt) {
+  // As long as it starts beyond the wall it takes to come inside.
+  const auto later = foreseen_meetings(tube("[-0.05, -0.05]", "[0.1, 0.1]", "[300, 0]"));
+  ASSERT_EQ(later.size(), 1u);
+  EXPECT_EQ(later[0].kind, Kind::lets_go_of_wall);
+  EXPECT_EQ(later[0].side, "low_x");
+  constexpr double one_look = 1e-6;  // s
+  EXPECT_NEAR(later[0].time, 0.05 / speed, one_look);
+  EXPECT_NEAR(later[0].missing, 0.24 - 0.05 + h, 1e-9) << "and a cell to be sure";
+  const auto at_once = foreseen_meetings(tube("[0, 0]", "[0.1, 0.05]", "[300, 0]"));
+  ASSERT_EQ(at_once.size(), 1u);
+  EXPECT_EQ(at_once[0].kind, Kind::lets_go_of_wall);
+  EXPECT_EQ(at_once[0].time, 0.0);
+  // Nor can gas widen that starts as less than half a cell.
+  const auto near = foreseen_meetings(tube("[0.0025, 0]", "[0.1, 0.05]", "[300, 0]"));
+  ASSERT_EQ(near.size(), 1u);
+  EXPECT_EQ(near[0].kind, Kind::lets_go_of_wall);
+}
+
+TEST(APistonInATube, CannotMoveThroughAnOpenSide) {
+  const auto met = foreseen_meetings(
+      tube("[0.7, -0.05]", "[0.9, 0.1]", "[300, 0]", "[[gas.edge]]\nside = \"high_x\"\nkind = \"pressure\"\npressure = 1e5\n"));
+  ASSERT_EQ(met.size(), 1u);
+  EXPECT_EQ(met[0].kind, Kind::reaches_open_side);
+}
+
+TEST(APistonInATube, ThatReachesFarEnoughSlidesOrStopsMeetsNothing) {
+  EXPECT_TRUE(foreseen_meetings(tube("[-0.3, -0.05]", "[0.1, 0.1]", "[300, 0]")).empty());
+  EXPECT_TRUE(foreseen_meetings(tube("[0.3, 0]", "[0.5, 0.05]", "[300, 0]")).empty()) << "flush with the walls along it";
+  EXPECT_TRUE(foreseen_meetings(tube("[0.3, 0]", "[0.5, 0.025]", "[300, 0]")).empty()) << "on one of them";
+  EXPECT_TRUE(foreseen_meetings(tube("[0.7, -0.05]", "[0.9, 0.1]", "[300, 0]",
+                                     "amplitude = { time = [0, \"0.2 ms\", \"0.2001 ms\"], value = [1, 1, 0] }\n"))
+                  .empty())
+      << "after 60 of 100 mm";
+}
+
+/// They run to their ends: nothing is to be foreseen of them.
+TEST(TheCasesWithBodies, AreNotWarnedOf) {
+  int with_bodies = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(BRISANCE_SOURCE_DIR "/data/cases")) {
+    if (entry.path().extension() != ".toml" || !contains(text_of(entry.path()), "[[gas.body]]")) continue;
+    ++with_bodies;
+    for (const ForeseenMeeting& meeting : foreseen_meetings(read_case(entry.path())))
+      ADD_FAILURE() << entry.path() << ": " << in_words(meeting);
+  }
+  EXPECT_GT(with_bodies, 8);
+}
+
+}  // namespace
+}  // namespace brisance::simulator::gas

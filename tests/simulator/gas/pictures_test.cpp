@@ -1,0 +1,122 @@
+// What the pictures of gas show of bodies and references.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "simulator/case_reader.hpp"
+#include "simulator/gas/outline.hpp"
+#include "simulator/output/figures.hpp"
+#include "simulator/output/line_out.hpp"
+#include "simulator/run.hpp"
+#include "simulator/setup.hpp"
+#include "tests/command_line.hpp"
+#include "tests/simulator/gas/bodies_set_up.hpp"
+
+namespace brisance::simulator {
+namespace {
+
+double area_of(const std::vector<Vector>& polygon) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) twice += cross(polygon[i], polygon[(i + 1) % polygon.size()])[2];
+  return 0.5 * std::abs(twice);
+}
+
+/// The circle that a disk, or a sphere through its middle, is in the picture.
+TEST(TheOutlineOfABall, IsACircle) {
+  constexpr double h = 0.01, radius = 0.06;
+  const Vector centre = {0.2, 0.1, 0.0};
+  for (const Geometry geometry : {Geometry::plane, Geometry::three_dimensional}) {
+    const auto domain = single_process();
+    const bool space = geometry == Geometry::three_dimensional;
+    const Vector middle = space ? Vector{0.2, 0.1, 0.105} : centre;
+    gas::Gas gas = gas::set_up::box(geometry, h, {0, 0, 0}, {40, 20, space ? 20 : 0}, {gas::set_up::ideal_gas()}, *domain);
+    gas.bodies.all = {gas::set_up::ball(geometry, h, middle, radius)};
+    fill(
+        gas,
+        [](const Vector&, double) {
+          return gas::Filling{0, 1.2, 1e5, {}};
+        },
+        *domain);
+    const gas::Outline outline = gas::outline_of(gas, 10);
+    double length = 0.0, area = 0.0;
+    for (const auto& [from, to] : outline.contour) {
+      constexpr double smeared = 0.1 * h;  // the contour of a curved body lies a little within it
+      for (const Vector& x : {from, to}) EXPECT_NEAR(std::hypot(x[0] - centre[0], x[1] - centre[1]), radius, smeared);
+      length += magnitude(to - from);
+    }
+    for (const auto& polygon : outline.solid) area += area_of(polygon);
+    constexpr double part = 0.03;  // of smear and particles
+    EXPECT_NEAR(length, 2.0 * std::numbers::pi * radius, part * 2.0 * std::numbers::pi * radius);
+    EXPECT_NEAR(area, std::numbers::pi * radius * radius, part * std::numbers::pi * radius * radius);
+  }
+}
+
+TEST(AReferenceOfGas, IsInterruptedWhereABodyIs) {
+  constexpr double h = 0.1;
+  const LineOut computed{"x", {0.05, 0.15, 0.25, 0.65, 0.75, 0.85}, {}};  // a body from 0.3 to 0.6
+  const auto pieces_of = [&](const std::vector<double>& place, const std::vector<double>& value) {
+    const LineOut shown = outside_bodies({"x", place, {value}}, computed, h);
+    std::vector<std::vector<std::pair<double, double>>> pieces(1);
+    for (std::size_t i = 0; i < shown.place.size(); ++i) {
+      if (std::isnan(shown.place[i]))
+        pieces.emplace_back();
+      else
+        pieces.back().emplace_back(shown.place[i], shown.values[0][i]);
+    }
+    return pieces;
+  };
+  using Piece = std::vector<std::pair<double, double>>;
+  // Rows at the faces of the body: nothing is drawn between them.
+  EXPECT_EQ(pieces_of({0.0, 0.3, 0.6, 0.9}, {2, 2, 1, 1}), (std::vector<Piece>{{{0.0, 2}, {0.3, 2}}, {{0.6, 1}, {0.9, 1}}}));
+  // Rows far away: the line comes as near as the cells do.
+  EXPECT_EQ(pieces_of({0.0, 0.9}, {1, 1}), (std::vector<Piece>{{{0.0, 1}, {0.25, 1}}, {{0.65, 1}, {0.9, 1}}}));
+  // Without a body nothing is cut.
+  const LineOut whole = outside_bodies({"x", {0.0, 1.0}, {{1, 2}}}, {"x", {0.05, 0.15, 0.25, 0.35}, {}}, h);
+  EXPECT_EQ(whole.place, (std::vector<double>{0.0, 1.0}));
+}
+
+/// Draws with a program in the place of gnuplot that keeps what it is told, and returns that.
+std::string told_to_gnuplot(const Case& c, const Simulation& s, const fs::path& directory) {
+  fs::create_directories(directory / "bin");
+  const fs::path told = directory / "told.txt", program = directory / "bin" / "gnuplot";
+  write_text(program, "#!/bin/sh\ntee -a '" + told.string() +
+                          "' | sed -n 's/^set output \"\\(.*\\)\"$/\\1/p' | while read -r name; do echo x > \"$name\"; done\n");
+  fs::permissions(program, fs::perms::owner_all);
+  const std::string before = std::getenv("PATH");
+  setenv("PATH", ((directory / "bin").string() + ":" + before).c_str(), 1);
+  static_cast<void>(draw_figures(c, s, directory));
+  setenv("PATH", before.c_str(), 1);
+  return text_of(told);
+}
+
+TEST(PicturesOfGas, ShowTheReferenceOverWhatWasComputedAndTheBodyOverTheCells) {
+  const fs::path directory = scratch();
+  const Case c = read_case(fs::path(BRISANCE_SOURCE_DIR) / "data/cases/piston_in_gas.toml", {"end_time=0.05"});
+  Simulation s = set_up(c);
+  ASSERT_EQ(run(c, s, {directory, {}, 3}).ending, Ending::interrupted);
+  const std::string told = told_to_gnuplot(c, s, directory);
+  const std::size_t line = told.find("title \"computed\"");
+  ASSERT_NE(line, std::string::npos) << told.substr(0, 2000);
+  const std::string plot = told.substr(told.rfind('\n', line) + 1, told.find('\n', line) - told.rfind('\n', line) - 1);
+  EXPECT_LT(plot.find("title \"computed\""), plot.find("title \"reference\"")) << plot;
+  const std::size_t tiles = told.find("boxxyerror");
+  ASSERT_NE(tiles, std::string::npos);
+  const std::string field = told.substr(tiles, told.find('\n', tiles) - tiles);
+  EXPECT_TRUE(contains(field, "filledcurves closed") && contains(field, "with lines")) << field;
+}
+
+TEST(PicturesAboutAnAxis, NameTheCoordinatesAsTheCaseFileDoes) {
+  const fs::path directory = scratch();
+  const Case c = read_case(fs::path(BRISANCE_SOURCE_DIR) / "data/cases/sphere_with_the_gas.toml", {"end_time=1e-3"});
+  Simulation s = set_up(c);
+  ASSERT_NE(run(c, s, {directory, {}, 2}).ending, Ending::failed);
+  const std::string told = told_to_gnuplot(c, s, directory);
+  EXPECT_TRUE(contains(told, "set xlabel \"x, the radius")) << told.substr(0, 2000);
+  EXPECT_TRUE(contains(told, "set ylabel \"y, along the axis"));
+}
+
+}  // namespace
+}  // namespace brisance::simulator
