@@ -11,7 +11,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 packages=(build-essential cmake ninja-build pkg-config libeigen3-dev librandom123-dev libboost-dev libhdf5-dev zlib1g-dev
-          libtomlplusplus-dev libudunits2-dev libcli11-dev libfmt-dev libceres-dev libgtest-dev
+          libtomlplusplus-dev libudunits2-dev libcli11-dev libfmt-dev libceres-dev libmuparser-dev libgtest-dev
           libgnuplot-iostream-dev gnuplot-nox libboost-iostreams-dev libboost-filesystem-dev libboost-system-dev)
 
 usage() {

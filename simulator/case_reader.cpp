@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <variant>
 
@@ -84,6 +86,30 @@ class CaseReader : public KeyReader<CaseReader> {
                                                               : Length{1, 3};
     const std::vector<double> numbers = in.numbers(key.name, quantity(key), length);
     std::copy_n(numbers.begin(), std::min(numbers.size(), value.size()), value.begin());
+  }
+  /// Of what lies beyond an edge, formulas may speak of the time.
+  template <class Config, class T>
+  Varying varying(TableReader& in, const Key<Config, T>& key, const NumberOrText& given) {
+    if (given.text.empty()) return given.number;
+    try {
+      const int all = 3;  // without a geometry
+      return Varying(std::make_shared<const Formula>(given.text, geometry_known_ ? case_.dimensions() : all,
+                                                     std::is_same_v<Config, EdgeConfig>));
+    } catch (const std::invalid_argument& error) {
+      in.problem(key.name, std::string(error.what()) + "; or give " + allowed_texts(key.unit));
+      return {};
+    }
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, std::optional<Varying>& value) {
+    value = varying(in, key, in.number_or_text(key.name, quantity(key)));
+  }
+  template <class K>
+  void read_value(TableReader& in, const K& key, VaryingVector& value) {
+    const Length length = geometry_known_ ? exactly(dimensions()) : Length{1, 3};
+    const std::vector<NumberOrText> given = in.numbers_or_texts(key.name, quantity(key), length);
+    for (std::size_t a = 0; a < std::min(given.size(), value.components.size()); ++a)
+      value.components[a] = varying(in, key, given[a]);
   }
   template <class K>
   void read_value(TableReader& in, const K& key, Table& value) {

@@ -57,6 +57,12 @@ class CaseWriter {
     const int count = components == Components::three ? 3 : case_.dimensions();
     return toml_list(std::vector<double>(v.begin(), v.begin() + count), toml_number);
   }
+  static std::string text_of(const Varying& x) { return x.formula ? toml_text(x.formula->text()) : toml_number(x.number); }
+  static std::string value(const Varying& x, Components) { return text_of(x); }
+  std::string value(const VaryingVector& v, Components) const {
+    const auto begin = v.components.begin();
+    return toml_list(std::vector<Varying>(begin, begin + case_.dimensions()), text_of);
+  }
   static std::string value(const Table& table, Components) {
     if (table.size == 0) return "";
     if (table.size == 1 && table.x[0] == 0.0) return toml_number(table.y[0]);

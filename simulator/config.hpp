@@ -13,6 +13,7 @@
 
 #include "models/input/material_reader.hpp"
 #include "models/parameters.hpp"
+#include "simulator/formula.hpp"
 #include "simulator/vector.hpp"
 
 namespace brisance::simulator {
@@ -153,11 +154,11 @@ enum class GasScheme { ice, ice_classic };
 
 /// A state of gas: what fills a region at the start, or what lies beyond an edge.
 struct GasStateConfig {
-  std::string fluid;                  // empty: the only one
-  std::optional<double> density;      // kg/m^3; this or the temperature
-  std::optional<double> temperature;  // K
-  std::optional<double> pressure;     // Pa
-  Vector velocity{};                  // m/s
+  std::string fluid;                   // empty: the only one
+  std::optional<Varying> density;      // kg/m^3; this or the temperature
+  std::optional<Varying> temperature;  // K
+  std::optional<Varying> pressure;     // Pa
+  VaryingVector velocity{};            // m/s
 };
 /// Along what the columns of a profile are given: a coordinate, or the distance from a centre.
 enum class ProfileAlong { x, y, z, radius };

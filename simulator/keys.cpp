@@ -47,6 +47,20 @@ class Describer : public KeyDescriber<Describer> {
         std::string(three ? "a list of 3 components" : "a list of 1 to 3 components, by geometry") + ", each " + numbers(key),
         "0");
   }
+  template <class Config, class T>
+  static std::string formula_of(const Key<Config, T>&) {
+    const bool edge = std::is_same_v<Config, EdgeConfig>;
+    return std::string(", or a formula in SI units such as ") + (edge ? "\"2*(1 + t/r)\"" : "\"2*(1 + x/r)\"") +
+           " in x, y, z, r (distance from the origin)" + (edge ? ", t" : "") + " and pi";
+  }
+  template <class K>
+  void describe(const std::string& path, const K& key, const std::optional<Varying>&) {
+    add(path, key, numbers(key) + formula_of(key));
+  }
+  template <class K>
+  void describe(const std::string& path, const K& key, const VaryingVector&) {
+    add(path, key, "a list of 1 to 3 components, by geometry, each " + numbers(key) + formula_of(key), "0");
+  }
   template <class K>
   void describe(const std::string& path, const K& key, const Table&) {
     add(path, key, numbers(key) + ", or { time = [...], value = [...] }");

@@ -12,6 +12,7 @@
 #include "models/visit.hpp"
 #include "simulator/gas/bodies_setup.hpp"
 #include "simulator/gas/foreseen_meetings.hpp"
+#include "simulator/gas/initial_state.hpp"
 #include "simulator/solid/shapes.hpp"
 
 namespace brisance::simulator {
@@ -81,15 +82,18 @@ std::optional<std::string> what_does_not_start(const Case& c, const ReactionConf
     if (fluid.name == reaction.reactant) reactant = &fluid;
   double hottest = 0.0, highest = 0.0;  // K of the reactant, Pa of all
   const auto look = [&](const GasStateConfig& state) {
-    highest = std::max(highest, state.pressure.value_or(1e300));
+    const bool by_formula = gas::varies(state);
+    highest = std::max(highest, state.pressure && !by_formula ? state.pressure->number : 1e300);
     if (state.fluid != reaction.reactant) return;
     const EquationOfState& law = reactant->material.material.equation_of_state;
-    if (state.temperature)
-      hottest = std::max(hottest, *state.temperature);
+    if (by_formula)
+      hottest = 1e300;
+    else if (state.temperature)
+      hottest = std::max(hottest, state.temperature->number);
     else if (state.density && state.pressure)
-      hottest = std::max(
-          hottest, equation_of_state::temperature(law, *state.density,
-                                                  equation_of_state::energy_at_pressure(law, *state.density, *state.pressure)));
+      hottest = std::max(hottest, equation_of_state::temperature(law, state.density->number,
+                                                                 equation_of_state::energy_at_pressure(
+                                                                     law, state.density->number, state.pressure->number)));
     else
       hottest = 1e300;  // a profile
   };

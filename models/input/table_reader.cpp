@@ -167,6 +167,27 @@ double TableReader::number_or(std::string_view key, double default_value, const 
   return optional_number(key, quantity).value_or(default_value);
 }
 
+NumberOrText TableReader::number_or_text_in(const TomlNode& node, const std::string& path, const Quantity& quantity) {
+  const auto* const text = std::get_if<std::string>(&node.value);
+  if (text && !is_number_with_unit(*text)) return {0.0, *text};
+  return {number_in(node, path, quantity).value_or(0.0), ""};
+}
+
+NumberOrText TableReader::number_or_text(std::string_view key, const Quantity& quantity) {
+  const TomlNode* const node = require(key, quantity.meaning, allowed_for(quantity) + ", or a formula");
+  return node ? number_or_text_in(*node, path_of(key), quantity) : NumberOrText{};
+}
+
+std::vector<NumberOrText> TableReader::numbers_or_texts(std::string_view key, const Quantity& quantity, Length length) {
+  const std::string elements = allowed_for(quantity) + ", or a formula";
+  const TomlNode* const node = require(key, quantity.meaning, "a list of " + describe(length) + ", each " + elements);
+  const TomlList* const list = node ? list_in(*node, path_of(key), length, elements) : nullptr;
+  std::vector<NumberOrText> result;
+  for (std::size_t i = 0; list && i < list->size(); ++i)
+    result.push_back(number_or_text_in((*list)[i], joined(path_of(key), std::to_string(i)), quantity));
+  return result;
+}
+
 int TableReader::integer_or(std::string_view key, int default_value, int lowest, int highest) {
   const TomlNode* const node = read(key);
   if (!node) return default_value;

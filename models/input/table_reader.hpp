@@ -35,6 +35,12 @@ struct Quantity {
   std::string_view meaning = {};
 };
 
+/// A number, or if the text is not empty, a text.
+struct NumberOrText {
+  double number = 0.0;
+  std::string text;
+};
+
 /// How many elements a list must have.
 struct Length {
   std::size_t least = 1;
@@ -59,6 +65,10 @@ class TableReader {
   double number(std::string_view key, const Quantity& quantity);
   double number_or(std::string_view key, double default_value, const Quantity& quantity);
   std::optional<double> optional_number(std::string_view key, const Quantity& quantity);
+
+  /// A number, or a text that is not written as a number with a unit: a formula.
+  NumberOrText number_or_text(std::string_view key, const Quantity& quantity);
+  std::vector<NumberOrText> numbers_or_texts(std::string_view key, const Quantity& quantity, Length length = {});
 
   int integer(std::string_view key, int lowest, int highest);
   int integer_or(std::string_view key, int default_value, int lowest, int highest);
@@ -127,6 +137,7 @@ class TableReader {
   void report(Place place, const std::string& path, std::string what);
   void wrong_type(const TomlNode& node, const std::string& path, const std::string& required);
   std::optional<double> number_in(const TomlNode& node, const std::string& path, const Quantity& quantity);
+  NumberOrText number_or_text_in(const TomlNode& node, const std::string& path, const Quantity& quantity);
   std::vector<double> numbers_in(const TomlNode& node, const std::string& path, const Quantity& quantity, Length length);
   std::vector<std::string> texts_in(const TomlNode& node, const std::string& path, Length length);
   const TomlList* list_in(const TomlNode& node, const std::string& path, Length length, const std::string& elements);

@@ -375,6 +375,15 @@ double to_si(std::string_view text, Unit expected) {
   }
 }
 
+bool is_number_with_unit(std::string_view text) {
+  const std::string_view trimmed_text = trimmed(text);
+  const std::size_t length = length_of_number(trimmed_text);
+  const std::string_view unit = trimmed(trimmed_text.substr(length));
+  if (trimmed_text.empty()) return true;
+  const auto begins_word = [](unsigned char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c >= 0x80; };
+  return length > 0 && (unit.empty() || begins_word(static_cast<unsigned char>(unit.front())));
+}
+
 std::string quantity_of(Unit unit) {
   const NamedQuantity* const known = find_quantity(unit);
   return known ? std::string(known->article_and_name) : "a quantity in " + std::string(unit.text);

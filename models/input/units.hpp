@@ -38,6 +38,8 @@ class UnitConversion {
 
 /// "77 GPa" -> 7.7e10 for Unit::Pa. The text is one decimal number and one unit. Throws UnitError.
 double to_si(std::string_view text, Unit expected);
+/// Whether a text is written as a number with a unit: a number, then nothing or a word. Others may be formulas.
+bool is_number_with_unit(std::string_view text);
 
 /// The quantity a unit measures, for messages: "a pressure", or "a quantity in J/(kg K)".
 std::string quantity_of(Unit unit);

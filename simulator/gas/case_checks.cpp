@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -35,27 +36,18 @@ bool holds_cells(const Case& c) {
   return c.cell_size > 0.0;
 }
 
-/// Why a fluid has no such state (density in kg/m^3 or, where there is none, temperature in K); empty: it has.
-std::string why_not(const FluidConfig& fluid, double pressure, std::optional<double> given, std::optional<double> temperature) {
-  namespace eos = equation_of_state;
-  const EquationOfState& law = fluid.material.material.equation_of_state;
-  if (eos::caloric(law) != eos::Caloric::complete) return "";
-  const double density = given ? *given : eos::density_at(law, pressure, *temperature);
-  if (!(density > 0.0))
-    return fmt::format("{} has no state with {:.6g} Pa and {:.6g} K", in_quotes(fluid.name), pressure, *temperature);
-  const double energy = eos::energy_at_pressure(law, density, pressure), p = eos::pressure(law, density, energy);
-  constexpr double close = 1e-3;
-  if (!(std::abs(p - pressure) <= close * std::abs(pressure)))
-    return fmt::format("at {:.6g} kg/m^3 {} has no state with {:.6g} Pa; the nearest is {:.6g} Pa", density,
-                       in_quotes(fluid.name), pressure, p);
-  if (!(eos::sound_speed_squared(law, density, energy) > 0.0))
-    return fmt::format("at {:.6g} kg/m^3 and {:.6g} Pa {} carries no sound", density, pressure, in_quotes(fluid.name));
-  return "";
-}
 const FluidConfig* find_fluid(const Case& c, std::string_view name) {
   for (const FluidConfig& fluid : c.gas->fluids)
     if (fluid.name == name) return &fluid;
   return nullptr;
+}
+
+std::string why_not(const FluidConfig& fluid, double pressure, std::optional<double> density,
+                    std::optional<double> temperature) {
+  return why_no_state(fluid.name, fluid.material.material.equation_of_state, pressure, density, temperature);
+}
+std::optional<double> number_of(const std::optional<Varying>& value) {
+  return value ? std::optional(value->number) : std::nullopt;
 }
 
 /// `elsewhere`: where else density and pressure come from; empty: nowhere.
@@ -85,8 +77,9 @@ void check_gas_state(TableReader& in, State& state, const Case& c, const Elsewhe
   } else if (state.density.has_value() == state.temperature.has_value())
     in.problem(state.density ? "there are a density and a temperature; give one of the two"
                              : "neither density nor temperature is given; give one of the two");
-  else if (const FluidConfig* fluid = find_fluid(c, state.fluid); fluid && state.pressure)
-    if (const std::string why = why_not(*fluid, *state.pressure, state.density, state.temperature); !why.empty())
+  else if (const FluidConfig* fluid = find_fluid(c, state.fluid); fluid && state.pressure && !varies(state))
+    if (const std::string why = why_not(*fluid, state.pressure->number, number_of(state.density), number_of(state.temperature));
+        !why.empty())
       in.problem("pressure", why);
 }
 
@@ -122,9 +115,9 @@ void check_rows(TableReader& in, const FillConfig& fill, const StateProfile& pro
       (profile.density.empty() && fill.density.has_value() == fill.temperature.has_value()))
     return;
   for (std::size_t row = 0; row < profile.place.size(); ++row) {
-    const double pressure = profile.pressure.empty() ? *fill.pressure : profile.pressure[row];
-    const std::optional<double> density = profile.density.empty() ? fill.density : profile.density[row];
-    const std::string why = why_not(*fluid, pressure, density, fill.temperature);
+    const double pressure = profile.pressure.empty() ? fill.pressure->number : profile.pressure[row];
+    const std::optional<double> density = profile.density.empty() ? number_of(fill.density) : profile.density[row];
+    const std::string why = why_not(*fluid, pressure, density, number_of(fill.temperature));
     if (why.empty()) continue;
     in.problem("profile", fmt::format("row {}, at {:.6g} m: {}", row + 1, profile.place[row], why));
     return;
@@ -177,6 +170,55 @@ void check_classic(TableReader& in, const Case& c) {
   for (const std::string& reason : classic_limits(demands)) in.problem("scheme", reason);
 }
 
+bool is_zero(const VaryingVector& velocity) {
+  return !velocity.varies() && velocity.numbers() == Vector{};
+}
+
+/// Reports the first place of some, in the middles of a lattice of cells, where a formula makes no state at the start.
+void check_formulas_at(TableReader& in, const GasStateConfig& state, const Case& c, std::array<int, 3> first,
+                       std::array<int, 3> last, const Shape* shape) {
+  std::optional<Fluid> fluid;
+  if (const FluidConfig* given = find_fluid(c, state.fluid)) fluid = {given->name, given->material.material.equation_of_state};
+  for (int k = first[2]; k < last[2]; ++k)
+    for (int j = first[1]; j < last[1]; ++j)
+      for (int i = first[0]; i < last[0]; ++i) {
+        Vector x{};
+        const std::array<int, 3> index{i, j, k};
+        for (std::size_t a = 0; a < dimensions_of(c); ++a) x[a] = (index[a] + 0.5) * c.cell_size;
+        if (shape && !contains(*shape, x)) continue;
+        try {
+          static_cast<void>(state_at(state, 0, fluid ? &*fluid : nullptr, x, 0.0, c.dimensions()));
+        } catch (const FormulaError& error) {
+          return in.problem(error.key, error.what());
+        }
+      }
+}
+/// The cells of the box; what is wrong with it is reported elsewhere.
+bool find_cells(const Case& c, std::array<int, 3>& first, std::array<int, 3>& last) {
+  first = {0, 0, 0}, last = {1, 1, 1};
+  for (std::size_t a = 0; a < dimensions_of(c); ++a) {
+    if (!(c.cell_size > 0.0) || !(c.gas->lower[a] < c.gas->upper[a])) return false;
+    first[a] = static_cast<int>(std::lround(c.gas->lower[a] / c.cell_size));
+    last[a] = static_cast<int>(std::lround(c.gas->upper[a] / c.cell_size));
+  }
+  return true;
+}
+void check_formulas(TableReader& in, const FillConfig& fill, const Case& c) {
+  std::array<int, 3> first, last;
+  if (varies(fill) && !fill.profile && !fill.energy && find_cells(c, first, last))
+    check_formulas_at(in, fill, c, first, last, fill.shape.get());
+}
+void check_formulas(TableReader& in, const EdgeConfig& edge, const Case& c) {
+  std::array<int, 3> first, last;
+  const std::size_t axis = static_cast<std::size_t>(edge.side) / 2;
+  if (!varies(edge) || axis >= dimensions_of(c) || !find_cells(c, first, last)) return;
+  if (static_cast<std::size_t>(edge.side) % 2 == 0)
+    last[axis] = first[axis], first[axis] -= ring;
+  else
+    first[axis] = last[axis], last[axis] += ring;
+  check_formulas_at(in, edge, c, first, last, nullptr);
+}
+
 }  // namespace
 
 void check(TableReader& in, FluidConfig& fluid, const std::vector<FluidConfig>& others, const Case&) {
@@ -193,9 +235,13 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
     if (!elsewhere.pressure.empty()) in.problem("energy", "the pressure is in the profile; give one of the two");
     if (!fill.shape) in.problem("shape", "missing: the region that the energy is put into");
     if (!fill.density) in.problem("density", "missing: an energy needs it");
+    if (varies(fill)) in.problem("energy", "it is spread over one state; a formula cannot be beside it");
     elsewhere.pressure = "the energy";
   }
+  if (profile && varies(fill)) in.problem("profile", "a state varies by a profile or by formulas; give one of the two");
+  const std::size_t before = in.problem_count();
   check_gas_state(in, fill, c, elsewhere);
+  if (in.problem_count() == before) check_formulas(in, fill, c);
   if (profile && !fill.energy) check_rows(in, fill, *profile, c);
   if (others.empty() && fill.shape) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
   if (!others.empty() && !fill.shape)
@@ -216,7 +262,8 @@ void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& oth
   if (static_cast<std::size_t>(edge.side) / 2 >= dimensions_of(c))
     in.problem("side", fmt::format("in {} dimension{} there is no such side", c.dimensions(), c.dimensions() == 1 ? "" : "s"));
   // A velocity of zero says nothing: a case that a run has written holds one at every edge.
-  const bool more = in.has("density") || in.has("temperature") || edge.velocity != Vector{} || in.has("fluid");
+  const bool more = in.has("density") || in.has("temperature") || !is_zero(edge.velocity) || in.has("fluid");
+  const std::size_t before = in.problem_count();
   if (edge.kind == EdgeKind::inflow || edge.kind == EdgeKind::non_reflecting) {
     check_gas_state(in, edge, c);
   } else if (edge.kind == EdgeKind::pressure) {
@@ -225,11 +272,13 @@ void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& oth
   } else if (edge.kind == EdgeKind::no_slip) {
     if (in.has("pressure") || in.has("density") || in.has("fluid"))
       in.problem("of a wall only its velocity and temperature count; remove the rest");
-    if (edge.velocity[static_cast<std::size_t>(edge.side) / 2] != 0.0)
+    if (varies(edge)) in.problem("a formula would be ignored: a wall keeps its velocity and temperature; give numbers");
+    if (edge.velocity.numbers()[static_cast<std::size_t>(edge.side) / 2] != 0.0)
       in.problem("velocity", "a wall moves along itself only; make the component across it 0");
   } else if (more || in.has("pressure")) {
     in.problem("a state would be ignored: nothing comes through a wall or from beyond a period");
   }
+  if (in.problem_count() == before) check_formulas(in, edge, c);
 }
 
 void check(TableReader&, IgnitionConfig&, const std::vector<IgnitionConfig>&, const Case&) {}

@@ -37,14 +37,13 @@ Gas make_gas(const Case& c, Domain& domain) {
   for (const EdgeConfig& edge : config.edges) {
     Edge& made = gas.edges[static_cast<std::size_t>(edge.side)];
     made.kind = edge.kind;
-    Filling beyond;
-    if (edge.kind == EdgeKind::pressure)
-      beyond.pressure = *edge.pressure;
-    else if (edge.kind == EdgeKind::no_slip)
-      beyond.velocity = edge.velocity, made.temperature = edge.temperature;
-    else if (edge.kind != EdgeKind::wall && edge.kind != EdgeKind::periodic)
-      beyond = filling_of(config, gas.fluids, edge);
-    made.beyond = [beyond](const Vector&, double) { return beyond; };
+    if (edge.kind == EdgeKind::no_slip) {
+      const Filling beyond{.velocity = edge.velocity.numbers()};
+      if (edge.temperature) made.temperature = edge.temperature->number;
+      made.beyond = [beyond](const Vector&, double) { return beyond; };
+    } else if (!is_wall(edge.kind) && edge.kind != EdgeKind::periodic) {
+      made.beyond = state_beyond(config, gas.fluids, edge, c.dimensions());
+    }
   }
   for (const ReactionConfig& reaction : config.reactions) {
     Burn burn{reaction.name, number_of(config, reaction.reactant), number_of(config, reaction.product), {}, {}};

@@ -1,6 +1,7 @@
 #include "simulator/gas/initial_state.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "models/input/csv.hpp"
 #include "models/input/diagnostics.hpp"
+#include "models/input/units.hpp"
 #include "simulator/solid/shapes.hpp"
 
 namespace brisance::simulator::gas {
@@ -34,13 +36,87 @@ int number_of(const GasConfig& config, const std::string& fluid) {
 Filling filling_of(const GasConfig& config, const std::vector<Fluid>& fluids, const GasStateConfig& state) {
   Filling filling;
   filling.fluid = number_of(config, state.fluid);
-  filling.pressure = state.pressure.value_or(0.0), filling.velocity = state.velocity;
-  filling.temperature = state.temperature.value_or(0.0);
-  if (state.density) filling.density = *state.density;
-  if (state.temperature)
+  const auto number = [](const std::optional<Varying>& value) { return value ? value->number : 0.0; };
+  const auto is_number = [](const std::optional<Varying>& value) { return value && !value->formula; };
+  filling.pressure = number(state.pressure), filling.velocity = state.velocity.numbers();
+  filling.temperature = number(state.temperature), filling.density = number(state.density);
+  if (is_number(state.temperature) && is_number(state.pressure))
     filling.density = equation_of_state::density_at(fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state,
-                                                    filling.pressure, *state.temperature);
+                                                    filling.pressure, filling.temperature);
   return filling;
+}
+
+bool varies(const GasStateConfig& state) {
+  const auto by_formula = [](const std::optional<Varying>& value) { return value && value->formula; };
+  return by_formula(state.density) || by_formula(state.pressure) || by_formula(state.temperature) || state.velocity.varies();
+}
+
+std::string why_no_state(const std::string& fluid, const EquationOfState& law, double pressure, std::optional<double> given,
+                         std::optional<double> temperature) {
+  namespace eos = equation_of_state;
+  if (eos::caloric(law) != eos::Caloric::complete) return "";
+  const double density = given ? *given : eos::density_at(law, pressure, *temperature);
+  if (!(density > 0.0))
+    return fmt::format("{} has no state with {:.6g} Pa and {:.6g} K", in_quotes(fluid), pressure, *temperature);
+  const double energy = eos::energy_at_pressure(law, density, pressure), p = eos::pressure(law, density, energy);
+  constexpr double close = 1e-3;
+  if (!(std::abs(p - pressure) <= close * std::abs(pressure)))
+    return fmt::format("at {:.6g} kg/m^3 {} has no state with {:.6g} Pa; the nearest is {:.6g} Pa", density, in_quotes(fluid),
+                       pressure, p);
+  if (!(eos::sound_speed_squared(law, density, energy) > 0.0))
+    return fmt::format("at {:.6g} kg/m^3 and {:.6g} Pa {} carries no sound", density, pressure, in_quotes(fluid));
+  return "";
+}
+
+Filling state_at(const GasStateConfig& state, int number, const Fluid* fluid, const Vector& position, double time,
+                 int dimensions) {
+  const auto here = [&] {
+    return fmt::format("at ({:.6g}) m, t = {:.6g} s",
+                       fmt::join(std::span(position).first(static_cast<std::size_t>(dimensions)), ", "), time);
+  };
+  const auto value = [&](const char* key, const Varying& given, const Interval& interval) {
+    const double x = given.at(position, time);
+    if (given.formula && !(std::isfinite(x) && interval.contains(x)))
+      throw FormulaError(
+          key, fmt::format("{} is {:.6g} {}; it must be {}", in_quotes(given.formula->text()), x, here(), describe(interval)));
+    return x;
+  };
+  Filling filling;
+  filling.fluid = number;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimensions); ++a)
+    filling.velocity[a] = value("velocity", state.velocity.components[a], any_value);
+  if (state.pressure) filling.pressure = value("pressure", *state.pressure, any_value);
+  if (!fluid) return filling;
+  if (state.density) filling.density = value("density", *state.density, positive);
+  if (state.temperature) {
+    filling.temperature = value("temperature", *state.temperature, positive);
+    filling.density = equation_of_state::density_at(fluid->equation_of_state, filling.pressure, filling.temperature);
+  }
+  const std::string why =
+      why_no_state(fluid->name, fluid->equation_of_state, filling.pressure, filling.density, filling.temperature);
+  if (!why.empty()) throw FormulaError("pressure", here() + ": " + why);
+  return filling;
+}
+
+FillingFunction state_beyond(const GasConfig& config, const std::vector<Fluid>& fluids, const EdgeConfig& edge,
+                             int dimensions) {
+  const bool pressure_alone = edge.kind == EdgeKind::pressure;
+  Filling fixed;
+  if (pressure_alone)
+    fixed.pressure = edge.pressure->number;
+  else
+    fixed = filling_of(config, fluids, edge);
+  if (!varies(edge)) return [fixed](const Vector&, double) { return fixed; };
+  std::optional<Fluid> fluid;
+  if (!pressure_alone) fluid = fluids[static_cast<std::size_t>(fixed.fluid)];
+  return [edge, number = fixed.fluid, fluid, dimensions](const Vector& position, double time) {
+    try {
+      return state_at(edge, number, fluid ? &*fluid : nullptr, position, time, dimensions);
+    } catch (const FormulaError& error) {
+      throw std::runtime_error(
+          fmt::format("gas.edge {}: {}: {}", choices<BoxSide>[static_cast<std::size_t>(edge.side)], error.key, error.what()));
+    }
+  };
 }
 
 StateProfile read_state_profile(const ProfileConfig& config) {
@@ -86,7 +162,7 @@ double interpolate(const std::vector<double>& place, const std::vector<double>& 
 InitialState::InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells) : cells_(&cells) {
   for (const FillConfig& fill : config.fills) {
     Fill made{&fill, filling_of(config, fluids, fill), {}, {-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
-    made.law = &fluids[static_cast<std::size_t>(made.filling.fluid)].equation_of_state;
+    made.fluid = &fluids[static_cast<std::size_t>(made.filling.fluid)];
     if (fill.profile) made.profile = read_state_profile(*fill.profile);
     if (fill.shape) {
       const Bounds box = bounds(*fill.shape);
@@ -100,13 +176,14 @@ InitialState::InitialState(const GasConfig& config, const std::vector<Fluid>& fl
     const double volume = whole_of(cells.geometry) * volume_of(f), density = fill.filling.density;
     if (!(volume > 0.0))
       throw std::runtime_error(fmt::format("gas.fill.{}: its energy goes nowhere; its shape must hold a part of the box", f));
-    fill.filling.pressure = equation_of_state::pressure(*fill.law, density, *fill.config->energy / (volume * density));
+    fill.filling.pressure =
+        equation_of_state::pressure(fill.fluid->equation_of_state, density, *fill.config->energy / (volume * density));
   }
 }
 
 Filling InitialState::Fill::at(const Vector& x, int dimensions) const {
   const auto& p = config->profile;
-  if (!p) return filling;
+  if (!p) return varies(*config) ? state_at(*config, filling.fluid, fluid, x, 0.0, dimensions) : filling;
   Filling result = filling;
   Vector direction{};
   double place = 0.0;
@@ -122,7 +199,8 @@ Filling InitialState::Fill::at(const Vector& x, int dimensions) const {
     return column.empty() ? otherwise : interpolate(profile.place, column, place);
   };
   result.pressure = value(profile.pressure, filling.pressure);
-  if (config->temperature) result.density = equation_of_state::density_at(*law, result.pressure, *config->temperature);
+  if (config->temperature)
+    result.density = equation_of_state::density_at(fluid->equation_of_state, result.pressure, filling.temperature);
   result.density = value(profile.density, result.density);
   result.velocity = result.velocity + value(profile.velocity_along, 0.0) * direction +
                     value(profile.velocity_around, 0.0) * Vector{-direction[1], direction[0], 0.0};
@@ -146,7 +224,7 @@ int InitialState::visit(const Vector& middle, F&& f) const {
     candidates.push_back(n);
     if (!fills_[static_cast<std::size_t>(n)].config->shape) break;
   }
-  const auto uniform = [&](int n) { return !fills_[static_cast<std::size_t>(n)].config->profile; };
+  const auto uniform = [&](int n) { return fills_[static_cast<std::size_t>(n)].is_uniform(); };
   if (candidates.size() == 1 && uniform(candidates[0])) return candidates[0];
 
   struct Place {
@@ -154,7 +232,10 @@ int InitialState::visit(const Vector& middle, F&& f) const {
     Vector x;
     double volume;
   };
-  const int n = places_per_direction(D);
+  // A formula that no shape cuts is taken for smooth.
+  constexpr int by_formula = 4;
+  const bool smooth = candidates.size() == 1 && !fills_[static_cast<std::size_t>(candidates[0])].config->profile;
+  const int n = smooth ? by_formula : places_per_direction(D);
   const double width = cells.cell_size / n;
   double straight = 1.0;
   for (int a = 0; a < D; ++a) straight *= width;
@@ -185,7 +266,7 @@ std::vector<Portion> InitialState::in_cell(const Vector& middle) const {
   const int all = visit(middle, [&](int fill, const Vector& x, double part) {
     volume += part;
     const Fill& here = fills_[static_cast<std::size_t>(fill)];
-    const auto known = here.config->profile ? fills.end() : std::find(fills.begin(), fills.end(), fill);
+    const auto known = !here.is_uniform() ? fills.end() : std::find(fills.begin(), fills.end(), fill);
     if (known != fills.end()) {
       portions[static_cast<std::size_t>(known - fills.begin())].part += part;
     } else {

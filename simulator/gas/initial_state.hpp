@@ -1,6 +1,10 @@
 #pragma once
 // What the fills of a case say about a cell: which of them hold how much of it, and in what state.
 
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "simulator/gas/gas.hpp"
@@ -23,6 +27,9 @@ constexpr int places_per_direction(int dimensions) {
   return dimensions == 1 ? 64 : 8;
 }
 
+/// Whether formulas say of it what it is.
+bool varies(const GasStateConfig& state);
+
 class InitialState {
  public:
   /// Throws std::runtime_error when a fill with an energy holds none of the box.
@@ -37,8 +44,9 @@ class InitialState {
     Filling filling;  // where it has no profile
     StateProfile profile;
     Vector lower, upper;  // it lies within them
-    const EquationOfState* law = nullptr;
+    const Fluid* fluid = nullptr;
 
+    bool is_uniform() const { return !config->profile && !varies(*config); }
     Filling at(const Vector& x, int dimensions) const;
   };
   /// Calls f(number of the fill, place, volume) for the places in a cell that is not of one fill alone; returns the number of
@@ -53,7 +61,23 @@ class InitialState {
 
 /// Which of the fluids has a name.
 int number_of(const GasConfig& config, const std::string& fluid);
-/// A state as the case gives it; `fluids` are those of the gas.
+/// A state as the case gives it, without what formulas say; `fluids` are those of the gas.
 Filling filling_of(const GasConfig& config, const std::vector<Fluid>& fluids, const GasStateConfig& state);
+
+/// Why a fluid has no state with a pressure (Pa) and a density (kg/m^3) or, where that is not given, a temperature (K); empty:
+/// it has.
+std::string why_no_state(const std::string& fluid, const EquationOfState& law, double pressure, std::optional<double> density,
+                         std::optional<double> temperature);
+/// A formula has come to what no gas can be; the message says where, when and what is allowed.
+struct FormulaError : std::runtime_error {
+  FormulaError(std::string at_key, const std::string& what) : std::runtime_error(what), key(std::move(at_key)) {}
+  std::string key;
+};
+/// The state at a place and a time (s), of the fluid with this number; `fluid` is null where only a pressure counts. Throws
+/// FormulaError.
+Filling state_at(const GasStateConfig& state, int number, const Fluid* fluid, const Vector& position, double time,
+                 int dimensions);
+/// What lies beyond an open side. What it gives throws std::runtime_error where a formula fails, with the name of the side.
+FillingFunction state_beyond(const GasConfig& config, const std::vector<Fluid>& fluids, const EdgeConfig& edge, int dimensions);
 
 }  // namespace brisance::simulator::gas

@@ -391,8 +391,8 @@ TEST(CaseReader, ReadsTheGas) {
   ASSERT_TRUE(c.gas.has_value());
   EXPECT_EQ(c.gas->upper, (Vector{0.02, 0.01, 0}));
   EXPECT_EQ(c.gas->fluids.at(1).name, "products");
-  EXPECT_EQ(c.gas->fills.at(0).pressure, 101325.0);
-  EXPECT_EQ(c.gas->fills.at(1).velocity, (Vector{100, 0, 0}));
+  EXPECT_EQ(c.gas->fills.at(0).pressure->number, 101325.0);
+  EXPECT_EQ(c.gas->fills.at(1).velocity.numbers(), (Vector{100, 0, 0}));
   EXPECT_EQ(c.gas->fills.at(2).profile->file, folder() / "swirl.csv");
   EXPECT_EQ(c.gas->fills.at(2).profile->along, ProfileAlong::radius);
   EXPECT_EQ(c.gas->fills.at(2).profile->centre, (Vector{0.015, 0.005, 0}));

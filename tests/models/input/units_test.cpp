@@ -148,6 +148,13 @@ TEST(Conversion, AppliesToManyNumbersOfOneColumn) {
   EXPECT_EQ(UnitConversion("%", Unit::one)("50"), 0.5);
 }
 
+TEST(NumberWithUnit, IsToldFromAFormulaByHowItIsWritten) {
+  for (const char* text : {"1.2 kg/m^3", "-3e5 Pa", ".5m", "20 µs", "1e5", " 7 K ", "1 MPaa", ""})
+    EXPECT_TRUE(is_number_with_unit(text)) << text;
+  for (const char* text : {"(1 + t/r)^2", "-x/r", "1 + t", "2*x", "1e-6*(1 + t)", "r", "sqrt(2)"})
+    EXPECT_FALSE(is_number_with_unit(text)) << text;
+}
+
 TEST(Interval, IsDescribedInWords) {
   EXPECT_EQ(describe(positive), "> 0");
   EXPECT_EQ(describe(non_negative), ">= 0");
