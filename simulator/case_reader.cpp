@@ -44,6 +44,10 @@ class CaseReader : public KeyReader<CaseReader> {
     if (!case_.bodies.empty() && case_.gas) top.problem("gas", "a case holds either solids or gas, not yet both");
     if (!case_.bodies.empty() && geometry_known_ && dimensions() == 1)
       top.problem("geometry", "in one dimension there is gas alone; solids need plane, axisymmetric or three_dimensional");
+    if (geometry_known_ && case_.cell_size > 0.0 && !case_.boundaries.empty()) {
+      std::vector<TableReader> tables = top.tables("boundary");
+      for (std::size_t b = 0; b < case_.boundaries.size(); ++b) check_stroke(tables[b], case_.boundaries[b]);
+    }
     if (case_.gas) {
       for (const char* key : {"boundary", "load", "measure"})
         if (top.has(key)) top.problem(key, "it would be ignored: there are no solids; the sides of the gas are [[gas.edge]]");
@@ -361,9 +365,10 @@ class CaseReader : public KeyReader<CaseReader> {
       boundary.name = fmt::format("{}_{}_{}", choices<BoundaryKind>[static_cast<std::size_t>(boundary.kind)], axis_names[axis],
                                   choices<Side>[static_cast<std::size_t>(boundary.side)]);
     require_own_name(in, boundary, others);
-    if ((boundary.kind == BoundaryKind::velocity) != (boundary.velocity.size > 0))
-      in.problem("velocity", boundary.velocity.size > 0 ? "it would be ignored: the kind is not velocity"
-                                                        : "missing: how the boundary moves, for its kind is velocity");
+    if (boundary.kind == BoundaryKind::velocity && boundary.velocity.size == 0)
+      in.problem("velocity", "missing: how the boundary moves, for its kind is velocity");
+    if (boundary.kind != BoundaryKind::velocity && boundary.kind != BoundaryKind::rigid_wall && boundary.velocity.size > 0)
+      in.problem("velocity", "it would be ignored: the kind is neither velocity nor rigid_wall");
     if (boundary.kind != BoundaryKind::rigid_wall && boundary.friction > 0.0)
       in.problem("friction", "it would be ignored: the kind is not rigid_wall");
     if (axis >= dimensions() || !(case_.cell_size > 0.0)) return;
@@ -372,7 +377,6 @@ class CaseReader : public KeyReader<CaseReader> {
       in.problem("position",
                  fmt::format("{} is on no plane of nodes; the nearest are {} and {}", in_metres(boundary.position),
                              in_metres(std::floor(cells) * case_.cell_size), in_metres(std::ceil(cells) * case_.cell_size)));
-    if (boundary.velocity.size > 0) check_stroke(in, boundary);
     for (const BodyConfig& body : case_.bodies) check_side(in, boundary, axis, body);
   }
 
@@ -398,8 +402,9 @@ class CaseReader : public KeyReader<CaseReader> {
                  in_quotes(field) + " cannot be drawn; it must be one of " + listed(scalars) + did_you_mean(field, scalars));
   }
 
-  /// The plane of a boundary with a velocity stays where its nodes are, so what it moves must stay near.
+  /// A plane with a velocity that the grid cannot follow stays where its nodes are, so what it moves must stay near.
   void check_stroke(TableReader& in, const BoundaryConfig& boundary) {
+    if (boundary.velocity.size == 0 || travels(case_, boundary)) return;
     constexpr int parts = 1000;
     constexpr double most_cells = 0.5;
     double farthest = 0.0;
@@ -408,9 +413,10 @@ class CaseReader : public KeyReader<CaseReader> {
     if (farthest > most_cells * case_.cell_size * (1.0 + round_off))
       in.problem(
           "velocity",
-          fmt::format("it moves {}; the nodes it acts on stay where they are, so it may move half a cell, {}, at most; let the "
-                      "body move against a rigid_wall or a plane of symmetry instead",
-                      in_metres(farthest), in_metres(most_cells * case_.cell_size)));
+          fmt::format("it moves {}; the grid travels with the only plane across an axis, and here {} has others: this one may "
+                      "move half a cell, {}, at most; leave out the others, or let the body move instead",
+                      in_metres(farthest), axis_names[static_cast<std::size_t>(boundary.axis)],
+                      in_metres(most_cells * case_.cell_size)));
   }
 
   /// Whether a shape fills any part of a box that lies within its bounds: those of a shape that was cut may be too wide.
@@ -481,6 +487,7 @@ class CaseReader : public KeyReader<CaseReader> {
       return in.problem("from", "x = " + in_metres(place.upper[0]) + "; a radius is not negative");
     for (const BoundaryConfig& b : case_.boundaries) {
       const auto axis = static_cast<std::size_t>(b.axis);
+      if (travels(case_, b)) continue;
       if (b.side == Side::above ? place.upper[axis] >= b.position : place.lower[axis] <= b.position) continue;
       if (!sought_along(axis))
         return in.problem("from", fmt::format("it lies beyond the boundary {} at {} = {}, where there is never any material",

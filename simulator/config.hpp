@@ -117,7 +117,7 @@ struct BoundaryConfig {
   Axis axis = Axis::x;
   double position = 0.0;  // m, on a plane of nodes
   Side side = Side::above;
-  Table velocity;         // m/s against s, normal to the plane: kind velocity
+  Table velocity;         // m/s against s, normal to the plane: kinds velocity and rigid_wall
   double friction = 0.0;  // Coulomb's coefficient: kind rigid_wall
 };
 
@@ -317,6 +317,13 @@ struct Case {
 
   int dimensions() const { return number_of_dimensions(geometry); }
 };
+
+/// Whether a plane goes where its velocity leads, and the grid with it: only if no other plane of nodes lies across its axis.
+inline bool travels(const Case& c, const BoundaryConfig& boundary) {
+  int planes = c.geometry == Geometry::axisymmetric && boundary.axis == Axis::x ? 1 : 0;
+  for (const BoundaryConfig& b : c.boundaries) planes += b.axis == boundary.axis && b.kind != BoundaryKind::outflow ? 1 : 0;
+  return boundary.velocity.size > 0 && planes == 1;
+}
 
 }  // namespace brisance::simulator
 

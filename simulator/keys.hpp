@@ -117,16 +117,19 @@ inline constexpr auto keys<BodyConfig> = std::tuple{
 template <>
 inline constexpr auto keys<BoundaryConfig> = std::tuple{
     Key{"kind", &BoundaryConfig::kind, Unit::one,
-        "symmetry: nothing passes; fixed: sticks; velocity: gives the nodes of its plane a velocity, for strokes of up to half "
-        "a cell; rigid_wall: bodies may leave it and slide; "
-        "outflow: bodies leave through it",
+        "symmetry: nothing passes; fixed: sticks; velocity: gives what is on its plane a velocity; rigid_wall: bodies may "
+        "leave it "
+        "and slide; outflow: bodies leave through it",
         any_value, required},
     Key{"axis", &BoundaryConfig::axis, Unit::one, "axis that the plane is normal to", any_value, required},
     Key{"position", &BoundaryConfig::position, Unit::m, "coordinate of the plane, a multiple of cell_size", any_value,
         required},
     Key{"side", &BoundaryConfig::side, Unit::one, "where the bodies are", any_value, required},
     Key{"name", &BoundaryConfig::name, Unit::one, "what it is called in output; from kind, axis and side if not given"},
-    Key{"velocity", &BoundaryConfig::velocity, Unit::m_per_s, "velocity along the axis, of kind velocity; a table over time"},
+    Key{"velocity", &BoundaryConfig::velocity, Unit::m_per_s,
+        "velocity along the axis, of kinds velocity and rigid_wall; a table over time; the grid travels with the plane, which "
+        "for "
+        "more than half a cell must be the only one across its axis"},
     Key{"friction", &BoundaryConfig::friction, Unit::one, "Coulomb's coefficient, of kind rigid_wall", non_negative}};
 
 template <>

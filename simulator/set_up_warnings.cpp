@@ -58,6 +58,7 @@ bool meets(const Case& c, const BodyConfig& body, const BoundaryConfig& boundary
   const double distance =
       boundary.side == Side::above ? extent.lower[axis] - boundary.position : boundary.position - extent.upper[axis];
   const double approach = -inward * body.velocity.translation[axis];
+  if (boundary.velocity.size > 0 && boundary.kind == BoundaryKind::rigid_wall) return true;
   const bool holds_what_touches = boundary.kind == BoundaryKind::fixed || boundary.kind == BoundaryKind::velocity;
   return (holds_what_touches && distance <= c.cell_size) || (approach > 0.0 && distance - approach * c.end_time <= c.cell_size);
 }

@@ -230,12 +230,12 @@ Body build(const Case& c, std::size_t number) {
 }
 
 /// Cuts the blocks that hold particles into ranges of nearly equal numbers of particles.
-Partition partition_of(const std::vector<Body>& bodies, double cell_size, int ranks) {
+Partition partition_of(const std::vector<Body>& bodies, const Grid& grid, int ranks) {
   Partition result;
   if (ranks == 1 || bodies.empty()) return result;
   std::vector<BlockKey> keys;
   for (const Body& body : bodies)
-    for (int p = 0; p < body.particles.size; ++p) keys.push_back(block_of(body.particles, p, cell_size));
+    for (int p = 0; p < body.particles.size; ++p) keys.push_back(block_of(body.particles, p, grid));
   std::sort(keys.begin(), keys.end());
   for (int r = 1; r < ranks; ++r) {
     const BlockKey key = keys[keys.size() * static_cast<std::size_t>(r) / static_cast<std::size_t>(ranks)];
@@ -250,17 +250,18 @@ void keep_own(Simulation& s, Body& body) {
   Particles& ps = body.particles;
   std::vector<std::uint32_t> own;
   for (int p = 0; p < ps.size; ++p)
-    if (s.partition.owner(block_of(ps, p, s.grid.cell_size)) == s.domain->rank()) own.push_back(static_cast<std::uint32_t>(p));
+    if (s.partition.owner(block_of(ps, p, s.grid)) == s.domain->rank()) own.push_back(static_cast<std::uint32_t>(p));
   ps.reorder(own);
   ps.resize(static_cast<int>(own.size()));
 }
 
-Boundary make_boundary(const BoundaryConfig& b, double cell_size) {
+Boundary make_boundary(const Case& c, const BoundaryConfig& b) {
   Boundary result;
   result.name = b.name, result.kind = b.kind, result.axis = static_cast<int>(b.axis);
-  result.node = static_cast<int>(std::lround(b.position / cell_size));
+  result.node = static_cast<int>(std::lround(b.position / c.cell_size));
   result.inward = b.side == Side::above ? 1 : -1;
-  result.position = result.node * cell_size, result.friction = b.friction, result.velocity = b.velocity;
+  result.position = result.node * c.cell_size, result.friction = b.friction, result.velocity = b.velocity;
+  result.carries_grid = travels(c, b);
   return result;
 }
 
@@ -282,9 +283,9 @@ Simulation set_up(const Case& c, std::shared_ptr<Domain> domain) {
     axis.name = "axis", axis.kind = BoundaryKind::symmetry;
     s.boundaries.push_back(axis);
   }
-  for (const BoundaryConfig& b : c.boundaries) s.boundaries.push_back(make_boundary(b, c.cell_size));
+  for (const BoundaryConfig& b : c.boundaries) s.boundaries.push_back(make_boundary(c, b));
   for (std::size_t b = 0; b < c.bodies.size(); ++b) s.bodies.push_back(make_body(c, b));
-  s.partition = partition_of(s.bodies, c.cell_size, s.domain->size());
+  s.partition = partition_of(s.bodies, s.grid, s.domain->size());
   for (Body& body : s.bodies) keep_own(s, body);
   s.gas = gas::make_gas(c, *s.domain);
   begin(s);

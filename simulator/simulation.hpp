@@ -55,8 +55,8 @@ struct Numerics {
 /// The largest values over the particles, for the size of the next step. Exact, whatever the order.
 struct Extremes {
   double wave_speed = 0.0;       // m/s, of the material with its artificial viscosity
-  double wave_and_motion = 0.0;  // m/s, the same plus the largest component of the velocity
-  double speed = 0.0;            // m/s, largest component
+  double wave_and_motion = 0.0;  // m/s, the same plus the largest component of the velocity across the grid
+  double speed = 0.0;            // m/s, largest component across the grid
   double volume_rate = 0.0;      // 1/s, |tr L|
   double filling = 0.0;          // density over the highest, or the lowest over it, that the equation of state holds for
 };

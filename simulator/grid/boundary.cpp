@@ -1,5 +1,7 @@
 #include "simulator/grid/boundary.hpp"
 
+#include "simulator/table.hpp"
+
 namespace brisance::simulator {
 namespace {
 
@@ -91,6 +93,23 @@ template void fold<3>(const std::vector<Boundary>&, BlockKey, Lanes*);
 template void unfold<2>(const std::vector<Boundary>&, BlockKey, Lanes*);
 template void unfold<3>(const std::vector<Boundary>&, BlockKey, Lanes*);
 
+double velocity_of(const Boundary& boundary, double time) {
+  return boundary.velocity.size > 0 ? boundary.velocity(time) : 0.0;
+}
+
+Vector grid_origin(const std::vector<Boundary>& boundaries, double time) {
+  Vector origin{};
+  for (const Boundary& b : boundaries)
+    if (b.carries_grid) origin[static_cast<std::size_t>(b.axis)] = integral(b.velocity, time);
+  return origin;
+}
+
+void place_grid(Grid& grid, const std::vector<Boundary>& boundaries, double time) {
+  grid.origin = grid_origin(boundaries, time);
+  for (const Boundary& b : boundaries)
+    if (b.carries_grid) grid.velocity[static_cast<std::size_t>(b.axis)] = velocity_of(b, time);
+}
+
 Vector bounded(const Boundary& boundary, Vector velocity, bool touched, double time) {
   double& normal = velocity[static_cast<std::size_t>(boundary.axis)];
   switch (boundary.kind) {
@@ -101,10 +120,10 @@ Vector bounded(const Boundary& boundary, Vector velocity, bool touched, double t
       velocity = {};
       break;
     case BoundaryKind::velocity:
-      normal = boundary.velocity(time);
+      normal = velocity_of(boundary, time);
       break;
     case BoundaryKind::rigid_wall:
-      if (touched && normal * boundary.inward < 0.0) normal = 0.0;
+      if (const double V = velocity_of(boundary, time); touched && (normal - V) * boundary.inward < 0.0) normal = V;
       break;
     case BoundaryKind::outflow:
       break;

@@ -17,9 +17,10 @@ struct Boundary {
   int axis = 0;
   int node = 0;           // index of the plane
   int inward = 1;         // +1: the bodies are above
-  double position = 0.0;  // m
+  double position = 0.0;  // m, from the grid's origin
   double friction = 0.0;
-  Table velocity;  // m/s against s, along the axis
+  Table velocity;             // m/s against s, along the axis; empty: it stands
+  bool carries_grid = false;  // the plane travels, and the grid with it
 
   /// A mirror continues even and odd fields; other planes continue the values linearly, which makes the weights of the plane
   /// interpolate.
@@ -43,6 +44,13 @@ void unfold(const std::vector<Boundary>& boundaries, BlockKey block, Lanes* tile
 /// Whether a plane runs through the nodes of a block, and where: its local index along the axis, or -1.
 template <int D>
 int local_plane(const Boundary& boundary, BlockKey block);
+
+/// Along its axis, m/s.
+double velocity_of(const Boundary& boundary, double time);
+
+/// Where the boundaries that carry the grid have its origin at a time (s), m.
+Vector grid_origin(const std::vector<Boundary>& boundaries, double time);
+void place_grid(Grid& grid, const std::vector<Boundary>& boundaries, double time);
 
 /// The velocity of a node on the plane as the boundary wants it.
 Vector bounded(const Boundary& boundary, Vector velocity, bool touched, double time);

@@ -1,8 +1,8 @@
 #pragma once
-// The background grid: a uniform lattice of nodes at origin-free positions (i h, j h, k h), stored in sparse blocks of 64
-// nodes. Only blocks that particles touch exist. A block's particles are those whose nearest node it owns; they add to a
-// private tile, which is the block with a ring of one node, and the owner of a node adds what the tiles contribute in Morton
-// order. So the order of every sum is given by the grid, not by who computes it.
+// The background grid: a uniform lattice of nodes at (i h, j h, k h) from an origin, stored in sparse blocks of 64 nodes. Only
+// blocks that particles touch exist. A block's particles are those whose nearest node it owns; they add to a private tile,
+// which is the block with a ring of one node, and the owner of a node adds what the tiles contribute in Morton order. So the
+// order of every sum is given by the grid, not by who computes it.
 
 #include <array>
 #include <cmath>
@@ -13,6 +13,7 @@
 #include "models/real.hpp"
 #include "simulator/domain/domain.hpp"
 #include "simulator/grid/morton.hpp"
+#include "simulator/vector.hpp"
 
 namespace brisance::simulator {
 
@@ -76,6 +77,8 @@ struct Grid {
   int dimensions = 3;
   double cell_size = 0.0;  // m
   int fields = 1;          // velocity fields
+  Vector origin{};         // m, where node (0, 0, 0) is: it travels with a boundary that has a velocity
+  Vector velocity{};       // m/s, of the origin
 
   // Tiles: of the blocks that hold particles, here and, as far as they touch blocks owned here, on other ranks.
   std::vector<BlockKey> tile_block;  // in Morton order

@@ -148,7 +148,7 @@ ImageData solid_image(Simulation& s) {
 
   const Grid& grid = s.grid;
   const double h = grid.cell_size;
-  ImageData image{{}, {h, h, h}, {}, {}, {}, {}};
+  ImageData image{grid.origin, {h, h, h}, {}, {}, {}, {}};
   constexpr int none = std::numeric_limits<int>::max();
   image.lower.fill(none), image.upper.fill(-none);
   const auto mass = [&](std::size_t block, int field, int node) {

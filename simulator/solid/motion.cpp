@@ -112,15 +112,16 @@ bool let_leave(Simulation& s, Body& body, const std::vector<std::uint32_t>& left
 
 }  // namespace
 
-BlockKey block_of(const Particles& p, int particle, double cell_size) {
-  const double* x = p.motion.particle(particle);
-  return p.dimensions == 3 ? block_at<3>(x, chunk_size, 1.0 / cell_size) : block_at<2>(x, chunk_size, 1.0 / cell_size);
+BlockKey block_of(const Particles& p, int particle, const Grid& grid) {
+  const Vector x = vector_at(p, particle, 0) - grid.origin;
+  return p.dimensions == 3 ? block_at<3>(x.data(), 1, 1.0 / grid.cell_size) : block_at<2>(x.data(), 1, 1.0 / grid.cell_size);
 }
 
 void place_particles(Simulation& s) {
+  place_grid(s.grid, s.boundaries, s.time);
   for (Body& body : s.bodies) {
     Particles& p = body.particles;
-    for (int i = 0; i < p.size; ++i) p.block[static_cast<std::size_t>(i)] = block_of(p, i, s.grid.cell_size);
+    for (int i = 0; i < p.size; ++i) p.block[static_cast<std::size_t>(i)] = block_of(p, i, s.grid);
     migrate(s, body);
     p.pad();
     body.bins.sort(p);
@@ -150,11 +151,15 @@ void accept_motion(Simulation& s, const ParticleResult& particles, const NodeRes
   s.ledger.book(ordered_sum(*s.domain, particles.tallies), ordered_sum(*s.domain, nodes.tallies), boundaries,
                 s.has_external_forces());
 
+  s.time += dt;
+  s.last_time_step = dt;
+  ++s.step;
+  place_grid(s.grid, s.boundaries, s.time);
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     Body& body = s.bodies[b];
     Particles& p = body.particles;
     std::swap(p.motion, p.next_motion);
-    for (const std::uint32_t i : particles.moved[b]) p.block[i] = block_of(p, static_cast<int>(i), s.grid.cell_size);
+    for (const std::uint32_t i : particles.moved[b]) p.block[i] = block_of(p, static_cast<int>(i), s.grid);
     const bool lost = let_leave(s, body, particles.left[b]);
     if (migrate(s, body) || lost) {
       body.bins.sort(p);
@@ -163,9 +168,6 @@ void accept_motion(Simulation& s, const ParticleResult& particles, const NodeRes
       tidy(p, body.bins);
     }
   }
-  s.time += dt;
-  s.last_time_step = dt;
-  ++s.step;
 }
 
 Change motion_of(const Simulation& s, const Body& body) {

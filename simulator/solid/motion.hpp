@@ -7,7 +7,7 @@
 namespace brisance::simulator {
 
 /// The block whose node is nearest to a particle.
-BlockKey block_of(const Particles& particles, int particle, double cell_size);
+BlockKey block_of(const Particles& particles, int particle, const Grid& grid);
 /// Blocks and bins of all particles from their positions; particles go to the ranks that own their blocks.
 void place_particles(Simulation& s);
 /// The blocks of the grid that the particles need.

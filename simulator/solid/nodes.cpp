@@ -68,9 +68,9 @@ class LeastMass {
 };
 
 template <int D>
-Vector place(const BlockPosition& block, const std::array<int, 3>& local, double h) {
-  Vector x{};
-  for (int a = 0; a < D; ++a) x[static_cast<std::size_t>(a)] = h * (block[a] * Block<D>::side + local[a]);
+Vector place(const Grid& grid, const BlockPosition& block, const std::array<int, 3>& local) {
+  Vector x = grid.origin;
+  for (int a = 0; a < D; ++a) x[static_cast<std::size_t>(a)] += grid.cell_size * (block[a] * Block<D>::side + local[a]);
   return x;
 }
 template <int D>
@@ -123,7 +123,7 @@ void for_each_node(Simulation& s, std::size_t number, double reference, F&& f) {
       const std::array<int, 3> local = local_index<D>(n);
       if (in[Channel::mass] > least_mass(local)) {
         motion[n].store(out.data());
-        node.sums = in, node.position = place<D>(block, local, s.grid.cell_size);
+        node.sums = in, node.position = place<D>(s.grid, block, local);
         node.planes.clear();
         for (const Crossing& c : planes)
           if (local[static_cast<std::size_t>(c.axis)] == c.plane) node.planes.push_back(c.boundary);

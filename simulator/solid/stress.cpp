@@ -158,7 +158,8 @@ void look(const Simulation& s, const Body& body, int chunk, const Lanes& density
   const Lanes Q = select(jump > 0.0, viscosity.linear * c + viscosity.quadratic * jump, Lanes(0.0));
   const Lanes wave = Q + sqrt(Q * Q + c * c);
   Lanes speed(0.0);
-  for (int a = 0; a < D; ++a) speed = max(speed, abs(read(motion.chunk(chunk), L::Motion::velocity + a)));
+  for (int a = 0; a < D; ++a)
+    speed = max(speed, abs(read(motion.chunk(chunk), L::Motion::velocity + a) - s.grid.velocity[static_cast<std::size_t>(a)]));
   const LanesMask counts = in_use(body.particles, chunk);
   raise(e.wave_speed, counts, wave), raise(e.wave_and_motion, counts, wave + speed);
   raise(e.speed, counts, speed), raise(e.volume_rate, counts, abs(trace));

@@ -51,6 +51,13 @@ void for_each_share(Simulation& s, const TileView& tile, F&& f) {
     if (const Bin* bin = find_bin(s.bodies[b], tile.key)) f(b, s.bodies[b], *bin);
 }
 
+/// Positions with respect to the grid's origin, m.
+template <std::size_t D>
+std::array<Lanes, D> on_grid(const Grid& grid, std::array<Lanes, D> position) {
+  for (std::size_t a = 0; a < D; ++a) position[a] -= grid.origin[a];
+  return position;
+}
+
 /// The nodes that each of eight particles sees, from the first of the fields of their tile.
 template <std::size_t D>
 auto nodes_of(const Body& body, const Eight& eight, Lanes* fields) {
@@ -111,7 +118,7 @@ SymmetricTensor<Lanes> read_stress(const Columns& load) {
 
 /// The pressure with artificial viscosity (Pa) of each cell of a tile, if the body wants pressures averaged.
 template <int D>
-CellMeans<D> cell_pressures(const Body& body, const Bin& bin, const BlockPosition& block, double h) {
+CellMeans<D> cell_pressures(const Grid& grid, const Body& body, const Bin& bin, const BlockPosition& block) {
   using L = Layout<D>;
   CellMeans<D> means;
   if (!body.locking_cure) return means;
@@ -120,7 +127,8 @@ CellMeans<D> cell_pressures(const Body& body, const Bin& bin, const BlockPositio
                  [&](const Eight& eight) {
                    const Columns motion(body.particles.motion, eight), load(body.particles.load, eight);
                    const Lanes pressure = load[L::Load::artificial_viscosity] - trace(read_stress<D>(load)) / 3.0;
-                   const auto nearest = nearest_in_block(read_vector<D>(motion, L::Motion::position), block, h);
+                   const auto nearest =
+                       nearest_in_block(on_grid(grid, read_vector<D>(motion, L::Motion::position)), block, grid.cell_size);
                    means.add(eight, CellMeans<D>::cells(nearest), load[L::Load::mass] / load[L::Load::density], pressure);
                  });
   return means;
@@ -193,14 +201,16 @@ LoadedPoint loaded_point(const Simulation& s, const Body& body, int p, std::size
 
 /// Weights of a point of a particle's surface at the nodes of the particle: a force on any other might find no mass there.
 template <Geometry G, Basis basis, std::size_t D = dimensions_of<G>>
-Weights<D> surface_weights(const Particles& ps, const Eight& one, const Vector& point, const BlockPosition& block, double h) {
+Weights<D> surface_weights(const Grid& grid, const Particles& ps, const Eight& one, const Vector& point,
+                           const BlockPosition& block) {
   using L = Layout<D>;
+  const double h = grid.cell_size;
   const Lanes half_width = Columns(ps.load, one)[L::Load::half_width];
-  const auto particle = read_vector<D>(Columns(ps.motion, one), L::Motion::position);
+  const auto particle = on_grid(grid, read_vector<D>(Columns(ps.motion, one), L::Motion::position));
   Weights<D> w = find_weights<G, basis>(particle, half_width, block, h);
   for (std::size_t a = 0; a < D; ++a) {
     // What uGIMP knows of a particle has its undeformed width.
-    Lanes x(point[a]);
+    Lanes x(point[a] - grid.origin[a]);
     if (basis == Basis::ugimp) x = min(max(x, particle[a] - half_width), particle[a] + half_width);
     const Lanes xi = x / h - (w.nearest[a] + Lanes(block[a] * Block<D>::side));
     constexpr double no_width = 1e-9;
@@ -218,7 +228,7 @@ void for_each_load(const Simulation& s, const Body& body, const Bin& bin, const 
       const Eight one(body.bins.order[i]);
       const LoadedPoint point = loaded_point<D>(s, body, static_cast<int>(body.bins.order[i]), l);
       if (dot(point.force, point.force) == 0.0) continue;
-      f(point, surface_weights<G, basis>(body.particles, one, point.position, block, s.grid.cell_size), one);
+      f(point, surface_weights<G, basis>(s.grid, body.particles, one, point.position, block), one);
     }
 }
 
@@ -230,8 +240,8 @@ LanesMask reaching(const Simulation& s, const Body& body, const Eight& eight, co
   using L = Layout<D>;
   const double h = s.grid.cell_size;
   const auto axis = static_cast<std::size_t>(wall.axis);
-  const Lanes approach = dt * max(Lanes(-velocity[axis] * wall.inward), Lanes(0.0));
-  const Lanes distance = (position[axis] - wall.position) * wall.inward - approach;
+  const Lanes approach = dt * max((velocity_of(wall, s.time) - velocity[axis]) * wall.inward, Lanes(0.0));
+  const Lanes distance = (position[axis] - s.grid.origin[axis] - wall.position) * wall.inward - approach;
   const LanesMask near = distance <= 2.0 * h;
   if (none(near)) return near;
   const Columns rest(body.particles.rest, eight);
@@ -342,12 +352,12 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry, double dt) {
   for_each_share(s, tile, [&](std::size_t, const Body& body, const Bin& bin) {
     const Particles& ps = body.particles;
     CellMeans<D> pressures;
-    if (force) pressures = cell_pressures<D>(body, bin, tile.position, h);
+    if (force) pressures = cell_pressures<D>(s.grid, body, bin, tile.position);
     for_each_eight(body.bins, bin, {{ps.motion, 0, L::Motion::count}}, [&](const Eight& eight) {
       const Columns from(ps.motion, eight), load(ps.load, eight);
       const auto x = read_vector<D>(from, L::Motion::position), v = read_vector<D>(from, L::Motion::velocity);
       const Lanes m = load[L::Load::mass], half_width = load[L::Load::half_width];
-      Weights<D> w = find_weights<G, basis>(x, half_width, tile.position, h);
+      Weights<D> w = find_weights<G, basis>(on_grid(s.grid, x), half_width, tile.position, h);
       reach_inside(planes, h, w);
 
       // By channel: what is carried by S, and what by its slope along each direction, affine momentum m C and stress -V sigma.
@@ -441,10 +451,11 @@ Lanes stress_power(const SymmetricTensor<Lanes>& sigma, const GatheredByChannel<
   return power;
 }
 
-/// Lists those of eight particles that leave their block, and those that are beyond an outflow.
+/// Lists those of eight particles that leave their block, with the grid's origin as it is then, and those that are beyond an
+/// outflow.
 template <std::size_t D>
-void list_leavers(const Simulation& s, const Eight& eight, const std::array<Lanes, D>& x, const BlockPosition& block,
-                  std::vector<std::uint32_t>& moved, std::vector<std::uint32_t>& left) {
+void list_leavers(const Simulation& s, const Vector& origin, const Eight& eight, const std::array<Lanes, D>& x,
+                  const BlockPosition& block, std::vector<std::uint32_t>& moved, std::vector<std::uint32_t>& left) {
   const auto list = [&](const LanesMask& which, std::vector<std::uint32_t>& to) {
     if (none(which)) return;
     for (int i = 0; i < eight.used; ++i)
@@ -452,7 +463,7 @@ void list_leavers(const Simulation& s, const Eight& eight, const std::array<Lane
   };
   LanesMask stays(true), out(false);
   for (std::size_t a = 0; a < D; ++a) {
-    const Lanes node = nearest_node(x[a], 1.0 / s.grid.cell_size);
+    const Lanes node = nearest_node(x[a] - origin[a], 1.0 / s.grid.cell_size);
     stays &= (node >= block[a] * Block<D>::side) & (node < (block[a] + 1) * Block<D>::side);
   }
   for (const Boundary& b : s.boundaries)
@@ -502,6 +513,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
   constexpr double anothers_mass = 1e-3;  // relative to its own, that a particle alone may see
   const double kept_alone = std::exp(-step.dt * s.extremes.wave_speed / h);
   const std::vector<GhostPlane> planes = ghost_planes<D>(s, tile.key);
+  const Vector origin_later = grid_origin(s.boundaries, s.time + step.dt);
   std::vector<Lanes> motion = motion_of<D>(s, tile);
   Lanes* remapped = s.grid.tile(tile.number, 0);
   if (step.remap) std::fill_n(remapped, motion.size(), Lanes(0.0));
@@ -513,7 +525,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
     const double into_heat =
         filter_heats(s, body) ? 0.5 * beta * (2.0 - beta) : 0.0;  // of the square of what is relative to the grid
     CellMeans<D> pressures;
-    if (external) pressures = cell_pressures<D>(body, bin, tile.position, h);
+    if (external) pressures = cell_pressures<D>(s.grid, body, bin, tile.position);
     for_each_eight(
         body.bins, bin,
         {{ps.motion, L::Motion::position, 2 * D},
@@ -526,7 +538,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
           Columns to(ps.next_motion, eight);
           const Vec x = read_vector<D>(from, L::Motion::position), v = read_vector<D>(from, L::Motion::velocity);
           const Lanes m = load[L::Load::mass];
-          Weights<D> w = find_weights<G, basis>(x, load[L::Load::half_width], tile.position, h);
+          Weights<D> w = find_weights<G, basis>(on_grid(s.grid, x), load[L::Load::half_width], tile.position, h);
           const GatheredByChannel<D> grid = gather<Slope::lever, false>(w, nodes_of<D>(body, eight, motion.data()));
 
           Vec v_new, x_new;
@@ -597,7 +609,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
               scatter<D>(w, i, momentum[i], slope, nodes(i));
             }
           }
-          list_leavers<D>(s, eight, x_new, tile.position, moved[number], left[number]);
+          list_leavers<D>(s, origin_later, eight, x_new, tile.position, moved[number], left[number]);
         });
     if (external)
       for_each_load<G, basis>(
@@ -645,7 +657,7 @@ double gradients(Simulation& s, const TileView& tile, double later) {
                     {ps.gradient, 0, L::tensor_components}},
                    [&](const Eight& eight) {
                      const Columns load(ps.load, eight);
-                     const auto x = read_vector<D>(Columns(ps.motion, eight), L::Motion::position);
+                     const auto x = on_grid(s.grid, read_vector<D>(Columns(ps.motion, eight), L::Motion::position));
                      const Weights<D> w = find_weights<G, basis>(x, load[L::Load::half_width], tile.position, h);
                      const GatheredByChannel<D> grid =
                          gather<Slope::gradient, ring>(w, nodes_of<D>(body, eight, motion.data()));

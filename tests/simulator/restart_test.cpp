@@ -59,6 +59,19 @@ TEST(Restart, GivesTheBitsOfARunThatNeverStopped) {
   EXPECT_EQ(resumed.summary.measures.at(0).value, uninterrupted.summary.measures.at(0).value);
 }
 
+TEST(Restart, FindsAWallThatTravelsWhereItWas) {
+  const Fixture f("velocity = {time = [0, \"2 us\", \"5 us\"], value = [0, \"150 m/s\", \"60 m/s\"]}\n" + gauges);
+  Simulation whole = set_up(f.c);
+  ASSERT_EQ(run(f.c, whole, {f.fresh("whole"), {}}).ending, Ending::done);
+  EXPECT_GT(whole.grid.origin[1], 0.5 * f.c.cell_size) << "it has gone too short a way to matter";
+  const fs::path parts = f.fresh("parts");
+  Simulation first = set_up(f.c), second = set_up(f.c);
+  EXPECT_EQ(run(f.c, first, {parts, {}, 37}).ending, Ending::interrupted);
+  ASSERT_EQ(resume(f.c, second, {parts, {}}).ending, Ending::done);
+  EXPECT_TRUE(bits_of(second) == bits_of(whole));
+  EXPECT_EQ(text_of(parts / "history.csv"), text_of(f.directory / "whole" / "history.csv"));
+}
+
 TEST(Restart, WorksAfterAKillAtAnyMoment) {
   const Fixture f("[output]\nfigures = false\ncheckpoint_steps = 2\n");
   Simulation whole = set_up(f.c);

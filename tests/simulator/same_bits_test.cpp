@@ -215,6 +215,11 @@ TEST(SameBits, QuarterOfABarOnAWall) {
 TEST(SameBits, AxisymmetricBarOnAWall) {
   expect_same_bits(axisymmetric_bar());
 }
+TEST(SameBits, BarOnAWallThatTravels) {
+  Case c = axisymmetric_bar();
+  c.boundaries.back().velocity = by_hand::table({{0.0, 100.0}, {5e-6, 300.0}});
+  expect_same_bits(c);
+}
 TEST(SameBits, DisksThatMeetAndLeave) {
   const Case c = disks_that_leave();
   expect_same_bits(c);
