@@ -183,7 +183,14 @@ InitialState::InitialState(const GasConfig& config, const std::vector<Fluid>& fl
 
 Filling InitialState::Fill::at(const Vector& x, int dimensions) const {
   const auto& p = config->profile;
-  if (!p) return varies(*config) ? state_at(*config, filling.fluid, fluid, x, 0.0, dimensions) : filling;
+  if (!p && !varies(*config)) return filling;
+  if (!p) {
+    try {
+      return state_at(*config, filling.fluid, fluid, x, 0.0, dimensions);
+    } catch (const FormulaError& error) {  // not in the middle of a cell, where the case was checked
+      throw std::runtime_error("gas.fill: " + error.key + ": " + error.what());
+    }
+  }
   Filling result = filling;
   Vector direction{};
   double place = 0.0;

@@ -188,6 +188,19 @@ TEST(FormulasBeyondAnEdge, EndARunWithASentenceWhereTheyFailOnTheWay) {
   EXPECT_TRUE(contains(result.message, "gas.edge high_y: pressure: at (")) << result.message;
 }
 
+TEST(FormulasOfAFill, AreRefusedWhereTheyFailBesideTheMiddleOfACell) {
+  std::string text = carried(20);
+  const std::string from = "1 + 0.2*sin(2*pi*(x - 0))";
+  text.replace(text.find(from), from.size(), "x - 0.01");
+  const auto domain = single_process();
+  try {
+    static_cast<void>(gas::make_gas(case_of(text), *domain));
+    FAIL() << "a density below 0";
+  } catch (const std::runtime_error& error) {
+    EXPECT_TRUE(contains(error.what(), "gas.fill: density: \"x - 0.01\" is -0.00375 at (0.00625, ")) << error.what();
+  }
+}
+
 TEST(FormulasOfAFill, HoldWhatTheySayInTheMeanOfACell) {
   const Case c = case_of(carried(20));
   const auto domain = single_process();
