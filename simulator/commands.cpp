@@ -186,6 +186,7 @@ int describe_keys(const std::string& key) {
   std::optional<std::string> thing = describe_shape(key);
   const std::vector<KeyDescription> found = thing ? std::vector<KeyDescription>{} : find_keys(all_keys(), key);
   if (!thing) thing = describe_material(key);
+  if (!thing && found.empty() && !laws) thing = describe_case(key);
   if (found.empty() && !laws && !thing) {
     std::vector<std::string_view> names = names_of(all_keys());
     const std::vector<LawPage> pages = all_laws();

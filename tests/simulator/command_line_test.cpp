@@ -277,6 +277,12 @@ TEST(DescribeCommand, ExplainsShapesByExamplesThatCanBeRead) {
   EXPECT_TRUE(contains(call({"describe", "spere"}).err, "did you mean \"sphere\"?"));
 }
 
+TEST(DescribeCommand, TellsWhatACaseIs) {
+  const Answer a = call({"describe", "sod"});
+  EXPECT_EQ(a.code, done) << a.err;
+  EXPECT_TRUE(contains(a.out, "Shock tube of Sod") && contains(a.out, "brisance run sod\n")) << a.out;
+}
+
 TEST(DescribeCommand, ExplainsMaterials) {
   for (const char* name : {"air", "air.toml"}) {
     const Answer a = call({"describe", name});
