@@ -11,6 +11,7 @@
 #include "driver/keys.hpp"
 #include "driver/run_command.hpp"
 #include "models/input/diagnostics.hpp"
+#include "models/input/material_folders.hpp"
 #include "models/programs/laws.hpp"
 
 namespace brisance::driver {
@@ -64,7 +65,10 @@ int run_command_line(int argc, char** argv) {
   run_command->add_option("-o,--output", options.output, "history: NAME.csv or NAME.h5; for a sweep also a directory");
   run_command->add_option("--plot", options.figure, "figure, .png or .svg");
   run_command->add_flag("--reference", options.reference, "compare with the rate form, integrated with error control");
-  run_command->callback([&] { code = run(options); });
+  run_command->callback([&] {
+    options.file = find_case(options.file);
+    code = run(options);
+  });
 
   CompareOptions comparison;
   CLI::App* compare_command = app.add_subcommand("compare", "Measured stress-strain curves against material models");
@@ -74,7 +78,10 @@ int run_command_line(int argc, char** argv) {
                               "NAME.csv of the errors of each test; NAME_points.csv goes beside it");
   compare_command->add_option("--plot", comparison.figures, "figure, .png or .svg; may be given twice")
       ->allow_extra_args(false);
-  compare_command->callback([&] { code = run_comparison(comparison); });
+  compare_command->callback([&] {
+    comparison.file = find_case(comparison.file);
+    code = run_comparison(comparison);
+  });
 
   app.add_subcommand("list", "All laws, folder by folder, and all keys of input files")->callback([&] { code = list(); });
 
@@ -85,7 +92,10 @@ int run_command_line(int argc, char** argv) {
   calibrate_command->add_option("-o,--output", calibration.output, "material file with the parameters found");
   calibrate_command->add_option("--plot", calibration.figures, "figure, .png or .svg; may be given twice")
       ->allow_extra_args(false);
-  calibrate_command->callback([&] { code = run_calibration(calibration); });
+  calibrate_command->callback([&] {
+    calibration.file = find_case(calibration.file);
+    code = run_calibration(calibration);
+  });
 
   std::vector<std::filesystem::path> materials;
   CLI::App* check_command = app.add_subcommand("check", "Material files against the analytical limits of their laws");
@@ -102,6 +112,9 @@ int run_command_line(int argc, char** argv) {
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+      std::vector<std::string> commands;
+      for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+      if (const std::string wrong = no_such_command(argc, argv, commands); !wrong.empty()) throw std::invalid_argument(wrong);
       return app.exit(error) == 0 ? static_cast<int>(done) : bad_input;
     }
     return code;

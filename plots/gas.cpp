@@ -610,7 +610,9 @@ Panel panel_of(const Watched& ran, const Entry& entry) {
     return panel;
   }
   const FigureConfig& figure = ran.config.figures.at(0);
-  const LineOut computed = line_out(ran.simulation, figure), reference = read_reference(figure);
+  const LineOut computed = line_out(ran.simulation, figure);
+  LineOut reference = read_reference(figure);
+  if (!ran.simulation.gas.bodies.empty()) reference = outside_bodies(reference, computed, ran.simulation.grid.cell_size);
   const auto f =
       static_cast<std::size_t>(std::find(figure.fields.begin(), figure.fields.end(), entry.field) - figure.fields.begin());
   panel.x_label = computed.coordinate + " (m)";

@@ -36,6 +36,11 @@ ShapePointer make_shape(Form form) {
 class CaseReader : public KeyReader<CaseReader> {
  public:
   Case read(TableReader& top) {
+    if (!top.has("geometry") && (top.has("segment") || top.has("experiment"))) {
+      top.problem("it is a file of the point driver, not a case of the simulator; `pointdriver` reads it");
+      top.ignore_rest();
+      return std::move(case_);
+    }
     read_keys(top, case_);
     if (case_.title.empty()) case_.title = top.file().stem().string();
     if (case_.gas && case_.output.figure_field == OutputConfig{}.figure_field) case_.output.figure_field = "density";

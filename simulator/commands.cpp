@@ -133,8 +133,9 @@ int check_case(const Options& o) {
   for (const DryRun::Points& p : dry.points) fmt::print("  {:24} {} {}\n", p.name, p.count, p.kind);
   fmt::print("  {:24} {:.1f} MB\n  {:24} {:.4g} s, limited by {}\n", "memory", dry.megabytes, "time step", dry.first_step,
              dry.limit);
-  fmt::print("  {:24} {:.3g}\n  {:24} {:.0f} ns per {} and step, measured now with {} threads\n", "steps, an estimate",
-             dry.steps, "speed", dry.nanoseconds, point, omp_get_max_threads());
+  const int threads = omp_get_max_threads();
+  fmt::print("  {:24} {:.3g}\n  {:24} {:.0f} ns per {} and step, measured now with {} thread{}\n", "steps, an estimate",
+             dry.steps, "speed", dry.nanoseconds, point, threads, threads == 1 ? "" : "s");
   fmt::print("  {:24} {}\n", "time, an estimate",
              dry.hours < 0.1 ? fmt::format("{:.1f} s", 3600.0 * dry.hours) : fmt::format("{:.2f} h", dry.hours));
   for (const std::string& warning : dry.warnings) fmt::print("  warning: {}\n", warning);
@@ -185,6 +186,7 @@ int describe_keys(const std::string& key) {
   std::optional<std::string> thing = describe_shape(key);
   const std::vector<KeyDescription> found = thing ? std::vector<KeyDescription>{} : find_keys(all_keys(), key);
   if (!thing) thing = describe_material(key);
+  if (!thing && found.empty() && !laws) thing = describe_case(key);
   if (found.empty() && !laws && !thing) {
     std::vector<std::string_view> names = names_of(all_keys());
     const std::vector<LawPage> pages = all_laws();
@@ -209,6 +211,7 @@ int describe_keys(const std::string& key) {
 int run_command_line(int argc, char** argv) {
   CLI::App app{"Deformation, heating and failure of metal bodies under impact; gas dynamics, detonation."};
   app.name("brisance");
+  app.set_version_flag("--version", "brisance " BRISANCE_VERSION);
   app.require_subcommand(1);
   int code = done;
   Options o;
@@ -256,6 +259,9 @@ int run_command_line(int argc, char** argv) {
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+      std::vector<std::string> commands;
+      for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+      if (const std::string wrong = no_such_command(argc, argv, commands); !wrong.empty()) throw std::invalid_argument(wrong);
       return app.exit(error) == 0 ? static_cast<int>(done) : bad_input;
     }
     return code;

@@ -70,6 +70,22 @@ std::optional<std::string> describe_shape(std::string_view form) {
                     example_of_shape(form));
 }
 
+std::optional<std::string> describe_case(std::string_view name) {
+  for (const std::filesystem::path& file : bundled_cases()) {
+    const std::string stem = file.stem().string();
+    if (name != stem && name != file.filename().string()) continue;
+    InputFile input = InputFile::load(file);
+    TableReader top = input.top();
+    const std::string_view command = top.has("geometry")    ? "brisance run"
+                                     : top.has("segment")   ? "pointdriver run"
+                                     : top.has("parameter") ? "pointdriver calibrate"
+                                                            : "pointdriver compare";
+    return fmt::format("{}, a case: {}\n  {} {}\n  its file, to copy and change: {}\n", stem, top.text_or("title", stem),
+                       command, stem, file.string());
+  }
+  return std::nullopt;
+}
+
 std::vector<std::string> material_names() {
   std::vector<std::string> names;
   for (const std::filesystem::path& file : bundled_materials())

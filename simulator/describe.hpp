@@ -17,6 +17,9 @@ std::optional<std::string> describe_shape(std::string_view form);
 /// A material that comes with the program, by the name of its file with or without .toml: name, notes, laws, how to use it.
 std::optional<std::string> describe_material(std::string_view name);
 
+/// A case that comes with the program, by the name of its file with or without .toml: title, how to run it, where it is.
+std::optional<std::string> describe_case(std::string_view name);
+
 /// The names that describe_material knows.
 std::vector<std::string> material_names();
 

@@ -115,10 +115,24 @@ std::optional<std::string> what_does_not_start(const Case& c, const ReactionConf
       *reactant->material.material.reaction);
 }
 
+/// A temperature that was perhaps meant in degrees Celsius.
+std::optional<std::string> very_cold(const std::string& name, double temperature) {
+  constexpr double cold = 60.0;  // K; nitrogen boils at 77
+  if (temperature >= cold) return {};
+  return fmt::format("{}: it starts at {:.6g} K; degrees Celsius are given as a text, such as \"{:.6g} degC\"", name,
+                     temperature, temperature);
+}
+
 }  // namespace
 
 std::vector<std::string> set_up_warnings(const Case& c) {
   std::vector<std::string> warnings;
+  for (const BodyConfig& body : c.bodies)
+    if (auto cold = very_cold(body.name, body.temperature)) warnings.push_back(std::move(*cold));
+  if (c.gas)
+    for (const FillConfig& fill : c.gas->fills)
+      if (fill.temperature)
+        if (auto cold = very_cold(fill.fluid, *fill.temperature)) warnings.push_back(std::move(*cold));
   for (const BodyConfig& body : c.bodies) {
     const std::optional<double> melting = melting_temperature(body.material.material, body.temperature);
     if (melting && body.temperature >= *melting)

@@ -78,9 +78,8 @@ Path find_case(const Path& name) {
     if (name == file.filename() || name == file.stem()) return file;
     names.push_back(file.stem().string());
   }
-  return fail(", and no case of this name comes with the programs" +
-              did_you_mean(name.stem().string(), std::vector<std::string_view>(names.begin(), names.end())) +
-              "; `brisance list cases` names them");
+  return fail(", and no case of this name in " + files.front().parent_path().string() +
+              did_you_mean(name.stem().string(), std::vector<std::string_view>(names.begin(), names.end())));
 }
 
 std::optional<Path> find_material(const Path& name, const Path& beside) {

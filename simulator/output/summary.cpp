@@ -45,18 +45,19 @@ std::string in_words(const GasBodyBooks& body, const Books& all) {
 std::string caution_in_words(const GasBooks& books, double cells_times_steps) {
   if (books.plain + books.flattened == 0) return "";
   constexpr double few = 0.01;
-  const double part = static_cast<double>(books.plain) / std::max(cells_times_steps, 1.0);
+  const auto part_of_all = [&](std::int64_t count) { return static_cast<double>(count) / std::max(cells_times_steps, 1.0); };
   std::string text = "  caution: ";
   if (books.plain > 0)
     text += fmt::format("{} times a cell took a step with first order ({:.2g} % of all cells and steps)", books.plain,
-                        100.0 * part);
+                        100.0 * part_of_all(books.plain));
   if (books.flattened > 0)
     text += fmt::format("{}{} times a change of velocity within a cell was made gentler", books.plain > 0 ? ", " : "",
                         books.flattened);
   text += ", or a cell would have lost more energy than it has. There the result is smeared, not wrong; ";
   return text +
-         (part > few ? "so much of it may show: look where the gas is nearly empty, take smaller cells or steps (gas.courant)"
-                     : "so little of it needs no action") +
+         (part_of_all(books.plain + books.flattened) > few
+              ? "so much of it may show: look where the gas is nearly empty, take smaller cells or steps (gas.courant)"
+              : "so little of it needs no action") +
          '\n';
 }
 

@@ -57,6 +57,13 @@ TEST(Describe, SuggestsWhatWasMeant) {
   EXPECT_TRUE(contains(a.err, "did you mean \"johnson_cook\"")) << a.err;
 }
 
+TEST(Run, FindsItsCasesAndCommandsByName) {
+  const Answer a = call({"run", "point_simple_shear", "-o", (scratch() / "history.csv").string()});
+  EXPECT_EQ(a.code, done) << a.err;
+  EXPECT_TRUE(contains(call({"run", "point_simple_sheer"}).err, "did you mean \"point_simple_shear\"?"));
+  EXPECT_TRUE(contains(call({"rum", "point_simple_shear"}).err, "did you mean \"run\"?"));
+}
+
 TEST(List, NamesEveryKeyOfEveryFile) {
   const Answer a = call({"list"});
   for (const char* key : {"segment.strain_rate", "segment.until", "segment.repeat", "initial.porosity", "output.every",

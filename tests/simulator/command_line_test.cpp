@@ -245,6 +245,21 @@ TEST(Cases, AreFoundByTheirNames) {
   EXPECT_EQ(wrong.code, bad_input);
   EXPECT_TRUE(contains(wrong.err, "sodd: there is no such file") && contains(wrong.err, "did you mean \"sod\"?")) << wrong.err;
   EXPECT_TRUE(contains(call({"check", BRISANCE_SOURCE_DIR "/data/cases"}).err, "it is a directory"));
+  const Answer point = call({"check", "point_cycle"});
+  EXPECT_EQ(point.code, bad_input);
+  EXPECT_TRUE(contains(point.err, "it is a file of the point driver")) << point.err;
+  EXPECT_EQ(std::count(point.err.begin(), point.err.end(), '\n'), 1) << "nothing else is wrong with it";
+}
+
+TEST(CommandLine, NamesTheNearestCommandAndTheVersion) {
+  const Answer wrong = call({"descibe", "sod"});
+  EXPECT_EQ(wrong.code, bad_input);
+  EXPECT_TRUE(contains(wrong.err, "\"descibe\" is no command; there are run, check,") &&
+              contains(wrong.err, "did you mean \"describe\"?"))
+      << wrong.err;
+  const Answer version = call({"--version"});
+  EXPECT_EQ(version.code, done);
+  EXPECT_TRUE(version.out.starts_with("brisance ")) << version.out;
 }
 
 TEST(DescribeCommand, ExplainsShapesByExamplesThatCanBeRead) {
@@ -260,6 +275,12 @@ TEST(DescribeCommand, ExplainsShapesByExamplesThatCanBeRead) {
   }
   EXPECT_TRUE(contains(call({"describe", "sphere"}).out, "inner_radius"));
   EXPECT_TRUE(contains(call({"describe", "spere"}).err, "did you mean \"sphere\"?"));
+}
+
+TEST(DescribeCommand, TellsWhatACaseIs) {
+  const Answer a = call({"describe", "sod"});
+  EXPECT_EQ(a.code, done) << a.err;
+  EXPECT_TRUE(contains(a.out, "Shock tube of Sod") && contains(a.out, "brisance run sod\n")) << a.out;
 }
 
 TEST(DescribeCommand, ExplainsMaterials) {

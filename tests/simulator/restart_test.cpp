@@ -122,7 +122,7 @@ TEST(Restart, AFinishedRunGoesOnUntilALaterTime) {
   ASSERT_EQ(run(f.c, s, {directory, {}}).ending, Ending::done);
   const std::string history = text_of(directory / "history.csv");
   Simulation same = set_up(f.c);
-  ASSERT_EQ(resume(f.c, same, {directory, {}}).ending, Ending::done);
+  ASSERT_EQ(resume(f.c, same, {directory, {}}).ending, Ending::nothing_left);
   EXPECT_EQ(text_of(directory / "history.csv"), history) << "there was nothing left to do";
   const double later = 1.2 * f.c.end_time;
   Simulation longer = set_up(f.c);

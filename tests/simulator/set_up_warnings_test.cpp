@@ -52,6 +52,18 @@ TEST(MovingBody, LeavesAWallBehindOrSlidesAlongAMirror) {
   expect_that_it_meets_something(c, true);
 }
 
+TEST(MovingBody, ThatIsVeryColdWasPerhapsMeantInDegreesCelsius) {
+  Case c = falling_block();
+  c.boundaries = {by_hand::plane(BoundaryKind::rigid_wall, Axis::y, 0.0, Side::above)};
+  EXPECT_TRUE(set_up_warnings(c).empty());
+  c.bodies[0].temperature = 25.0;
+  ASSERT_EQ(set_up_warnings(c).size(), 1u);
+  EXPECT_NE(
+      set_up_warnings(c).front().find("block: it starts at 25 K; degrees Celsius are given as a text, such as \"25 degC\""),
+      std::string::npos)
+      << set_up_warnings(c).front();
+}
+
 TEST(MovingBody, MeetsAnotherBodyIfTheirWaysCross) {
   Case c = falling_block();
   c.bodies.push_back(by_hand::body("target", c.bodies[0].material.material, box({12 * h, -50 * h, 0}, {20 * h, -40 * h, 0})));
