@@ -10,8 +10,7 @@ namespace brisance::simulator::gas::unsplit {
 namespace {
 
 /// A body whose face closes in on a wall of the box, until a cell between them has so little gas that it would share it with
-/// its mirror image: half a cell from the wall. One that slides along a wall, or reaches through it, has no such face. At an
-/// open side it is a body that moves through: a small cell would share its gas with what lies beyond, and no book would know.
+/// its mirror image: half a cell from the wall. One that slides along a wall, or reaches through it, has no such face.
 void note_meeting_with_side(const Gas& gas, Meeting& meeting) {
   const Bodies& bodies = gas.bodies;
   const Window& w = bodies.window;
@@ -25,13 +24,12 @@ void note_meeting_with_side(const Gas& gas, Meeting& meeting) {
     };
     if (!any_member([&](std::size_t n) { return gas.cells.contains(w.index(n)); })) continue;
     for (std::size_t side = 0; side < 2 * static_cast<std::size_t>(w.dimensions); ++side) {
-      const EdgeKind kind = gas.edges[side].kind;
-      if (kind == EdgeKind::periodic) continue;
+      if (gas.edges[side].kind != EdgeKind::wall) continue;
       const std::size_t a = side / 2;
       const double outward = side % 2 == 0 ? -1.0 : 1.0;
       constexpr double facing = 0.5;  // cosine
       const bool closes_in = outward * c.wall[a] < -facing * size && outward * c.velocity[a] > 0.0;
-      if (kind == EdgeKind::wall ? !(closes_in && gas.cells.contains(w.index(c.cell))) : c.velocity[a] == 0.0) continue;
+      if (!closes_in || !gas.cells.contains(w.index(c.cell))) continue;
       const bool beyond = any_member([&](std::size_t n) {
         const int at = w.index(n)[a];
         return side % 2 == 0 ? at < gas.cells.lower[a] : at >= gas.cells.upper[a];
@@ -95,12 +93,7 @@ bool bodies_meet(const Gas& gas, const Meeting& meeting, double dt, Domain& doma
       "that, or let the body stop";
   if (other >= 0) throw BodiesMeet(fmt::format("bodies {} and {}: they meet {}, {}", name(body), name(other), when, advice));
   const auto side = static_cast<std::size_t>(Meeting::of_side(0) - other);
-  if (gas.edges[side].kind == EdgeKind::wall)
-    throw BodiesMeet(fmt::format("body {}: it runs into the wall {} {}, {}", name(body), gas.edges[side].name, when, advice));
-  throw BodiesMeet(fmt::format(
-      "body {}: it moves through the open side {} {}, which bodies in the gas cannot; end the run before that, or place the "
-      "side farther away",
-      name(body), gas.edges[side].name, when));
+  throw BodiesMeet(fmt::format("body {}: it runs into the wall {} {}, {}", name(body), gas.edges[side].name, when, advice));
 }
 
 bool gas_changes_sides(const Gas& gas) {

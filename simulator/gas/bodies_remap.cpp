@@ -117,6 +117,39 @@ std::int64_t find_passing(Gas& gas, double dt, std::size_t axis) {
   return flattened;
 }
 
+/// An own cell in a neighbourhood that reaches through an open side of the box: what it takes comes through that side.
+struct SharedWithWorld {
+  std::size_t cell, neighbourhood;
+  std::int32_t passage;
+};
+std::vector<SharedWithWorld> find_shared_with_world(const Gas& gas) {
+  const Window& w = gas.bodies.window;
+  const auto open_side = [&](std::size_t n) {  // -1: none
+    const Index cell = w.index(n);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(w.dimensions); ++a) {
+      const bool low = cell[a] < gas.cells.lower[a];
+      const std::size_t side = 2 * a + (low ? 0 : 1);
+      const EdgeKind kind = gas.edges[side].kind;
+      if ((low || cell[a] >= gas.cells.upper[a]) && kind != EdgeKind::periodic && !is_wall(kind)) return static_cast<int>(side);
+    }
+    return -1;
+  };
+  std::vector<SharedWithWorld> found;
+  const std::vector<Neighbourhood>& all = gas.bodies.small.small;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    int side = -1;
+    for (std::size_t m = 0; m < static_cast<std::size_t>(all[i].count) && side < 0; ++m) side = open_side(all[i].members[m]);
+    for (std::size_t m = 0; m < static_cast<std::size_t>(all[i].count) && side >= 0; ++m) {
+      const Index cell = w.index(all[i].members[m]);
+      if (!gas.cells.contains(cell)) continue;
+      if (const auto place = gas.cells.find(cell))
+        found.push_back(
+            {all[i].members[m], i, gas.passage_of[static_cast<std::size_t>(place->block)][static_cast<std::size_t>(side)]});
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 void find_donors(Gas& gas) {
@@ -225,6 +258,7 @@ void redistribute_all(Gas& gas, std::vector<double>& entrapped, Meeting& meeting
   StepFields& s = bodies.fields;
   const auto D = static_cast<std::size_t>(w.dimensions);
   const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  const std::vector<SharedWithWorld> with_world = find_shared_with_world(gas);
   for (std::size_t q = 1; q < s.content.size(); ++q) {
     Column& held = s.content[q];
     for (const std::size_t n : bodies.small.shared) {
@@ -235,7 +269,21 @@ void redistribute_all(Gas& gas, std::vector<double>& entrapped, Meeting& meeting
     }
     std::vector<double> first;
     for (const std::size_t n : bodies.small.shared) first.push_back(s.mean[n]);
-    redistribute(w, bodies.small, bodies.next_space.volume, s.mean, s.covered);
+    std::vector<double> shared_before;
+    for (const SharedWithWorld& m : with_world) shared_before.push_back(s.mean[m.cell]);
+    const std::vector<double> means = redistribute(w, bodies.small, bodies.next_space.volume, s.mean, s.covered);
+    for (std::size_t k = 0; k < with_world.size(); ++k) {
+      const SharedWithWorld& m = with_world[k];
+      const double gain = gain_of(bodies.small, m.cell, bodies.next_space.volume[m.cell], means[m.neighbourhood],
+                                  shared_before[k], s.covered[m.cell]);
+      auto& step = gas.passages[static_cast<std::size_t>(m.passage)].step;
+      if (q == Content::energy)
+        step.energy += gain;
+      else if (q < Content::momentum + D)
+        step.momentum[q - Content::momentum] += gain;
+      else if ((q - Content::momentum - D) % per_fluid == Content::mass)
+        step.mass[(q - Content::momentum - D) / per_fluid] += gain;
+    }
     for (std::size_t k = 0; k < bodies.small.shared.size(); ++k) {
       const std::size_t n = bodies.small.shared[k];
       held[n] += whole_cell(gas.cells, w.index(n)[0]).volume * (s.mean[n] - first[k]);

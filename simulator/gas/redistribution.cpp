@@ -115,8 +115,8 @@ void find_neighbourhoods(const Window& w, const Cells& cells, const OpenSpace& b
   all.shared.erase(std::unique(all.shared.begin(), all.shared.end()), all.shared.end());
 }
 
-void redistribute(const Window& w, const Neighbourhoods& all, const std::vector<double>& volume, std::vector<double>& density,
-                  const std::vector<double>& covered) {
+std::vector<double> redistribute(const Window& w, const Neighbourhoods& all, const std::vector<double>& volume,
+                                 std::vector<double>& density, const std::vector<double>& covered) {
   // Means are taken of differences to one of the members: what is the same in all of them stays so to the last bit.
   std::vector<double> mean(all.small.size());
   for (std::size_t i = 0; i < all.small.size(); ++i) {
@@ -159,6 +159,7 @@ void redistribute(const Window& w, const Neighbourhoods& all, const std::vector<
   }
   for (std::size_t k = 0; k < all.shared.size(); ++k)
     if (volume[all.shared[k]] > 0.0) density[all.shared[k]] = now[k];
+  return mean;
 }
 
 }  // namespace brisance::simulator::gas

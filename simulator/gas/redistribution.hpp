@@ -21,9 +21,15 @@ struct Neighbourhoods {
 void find_neighbourhoods(const Window& window, const Cells& cells, const OpenSpace& before, const OpenSpace& after,
                          const CutCells& step, Neighbourhoods& all);
 
+/// What a member takes from the mean of one of its neighbourhoods, when it held `before` per volume or, without gas, `covered`.
+inline double gain_of(const Neighbourhoods& all, std::size_t member, double volume, double mean, double before,
+                      double covered) {
+  return (volume > 0.0 ? volume * (mean - before) : -covered) / all.overlaps[member];
+}
+
 /// Averages a quantity: `density` (per volume) of cells with gas, `covered` what cells without any still hold (zero
-/// elsewhere). Both by cell of the window; `volume` is that of their gas.
-void redistribute(const Window& window, const Neighbourhoods& all, const std::vector<double>& volume,
-                  std::vector<double>& density, const std::vector<double>& covered);
+/// elsewhere). Both by cell of the window; `volume` is that of their gas. Returns the means of the neighbourhoods.
+std::vector<double> redistribute(const Window& window, const Neighbourhoods& all, const std::vector<double>& volume,
+                                 std::vector<double>& density, const std::vector<double>& covered);
 
 }  // namespace brisance::simulator::gas
