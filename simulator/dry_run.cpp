@@ -41,8 +41,7 @@ std::vector<std::string> warnings_of(const Case& c, const Simulation& s, double 
   if (c.output.snapshot_interval > 0.0 && c.end_time / c.output.snapshot_interval > 1000.0)
     warnings.push_back(fmt::format("output.snapshot_interval gives {:.0f} snapshots", c.end_time / c.output.snapshot_interval));
   if (!c.bodies.empty() && fastest == 0.0 && c.loads.empty() && dot(c.gravity, c.gravity) == 0.0 &&
-      std::none_of(c.boundaries.begin(), c.boundaries.end(),
-                   [](const BoundaryConfig& b) { return b.velocity.size > 0; }))
+      std::none_of(c.boundaries.begin(), c.boundaries.end(), [](const BoundaryConfig& b) { return b.velocity.size > 0; }))
     warnings.emplace_back("nothing moves: no body has a velocity, and there is no load, no gravity and no moving boundary");
   return warnings;
 }

@@ -575,6 +575,8 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
        "boundary.0.side: solid \"bar\" reaches to y = 0 m, below the boundary at 317500 m"},
       {"axis = \"y\"", "axis = \"z\"", "case.toml:14:8: boundary.0.axis: there is no z in two dimensions; give x or y"},
       {"rigid_wall", "velocity", "boundary.0.velocity: missing: how the boundary moves, for its kind is velocity"},
+      {"\"rigid_wall\"", "\"symmetry\"\nvelocity = \"10 m/s\"",
+       "boundary.0.velocity: it would be ignored: the kind is neither velocity nor rigid_wall"},
       {"\"rigid_wall\"", "\"symmetry\"\nfriction = 0.2",
        "case.toml:14:12: boundary.0.friction: it would be ignored: the kind is not rigid_wall"},
       {"side = \"above\"\n", "side = \"above\"\n[[measure]]\nkind = \"final_length\"\nbody = \"bat\"",
