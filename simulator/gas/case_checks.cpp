@@ -159,14 +159,7 @@ void check_with_bodies(TableReader& in, const Case& c) {
 
 /// The limits of classic.hpp.
 void check_classic(TableReader& in, const Case& c) {
-  const GasConfig& gas = *c.gas;
-  ClassicDemands demands{.round = is_round(c.geometry),
-                         .gravity = c.gravity != Vector{},
-                         .face_dissipation = gas.least_mach != GasConfig{}.least_mach,
-                         .implicit = gas.implicit,
-                         .transport = has_transport(gas.fluids),
-                         .reactions = !gas.reactions.empty()};
-  for (const EdgeConfig& edge : gas.edges) demands.edge(edge.kind);
+  const ClassicDemands demands = demands_of(*c.gas, c.geometry, c.gravity, !c.gas->reactions.empty());
   for (const std::string& reason : classic_limits(demands)) in.problem("scheme", reason);
 }
 
