@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 
+#include "simulator/gas/node_spline.hpp"
 #include "simulator/solid/shapes.hpp"
 #include "simulator/thickness.hpp"
 
@@ -24,7 +26,10 @@ void check_radial_motion(const GasBodyConfig& config, const MovingBody& body) {
 
 }  // namespace
 
-MovingBody make_body(const Case& c, const GasBodyConfig& config) {
+namespace {
+
+/// Its name, centre and particles.
+MovingBody body_of(const Case& c, const GasBodyConfig& config) {
   MovingBody body;
   body.name = config.name, body.centre = config.centre;
   const auto D = static_cast<std::size_t>(c.dimensions());
@@ -48,11 +53,61 @@ MovingBody make_body(const Case& c, const GasBodyConfig& config) {
         body.places.push_back(middle - config.centre);
         body.volumes.push_back(filled * std::pow(spacing, static_cast<double>(D)) * (round ? middle[0] : 1.0));
       }
+  return body;
+}
+
+/// What is near a side of the box has a mirror image.
+bool is_wall(const Case& c, std::size_t side) {
+  return std::none_of(c.gas->edges.begin(), c.gas->edges.end(), [&](const EdgeConfig& edge) {
+    return edge.side == static_cast<BoxSide>(side) && edge.kind != EdgeKind::wall;
+  });
+}
+
+/// Whether a node is half full of a body, so that the contour of its smeared volume exists.
+bool shows(const Case& c, const GasBodyConfig& config) {
+  const MovingBody body = body_of(c, config);
+  const double h = c.cell_size;
+  const auto D = static_cast<std::size_t>(c.dimensions());
+  std::map<std::array<int, 3>, double> fraction;
+  for (std::size_t p = 0; p < body.places.size(); ++p) {
+    const Vector x = body.centre + body.places[p];
+    const double volume = body.volumes[p] / (c.geometry == Geometry::axisymmetric ? x[0] : 1.0);
+    std::vector<Vector> images = {x};
+    for (std::size_t side = 0; side < 2 * D; ++side) {
+      const double plane = (side % 2 == 0 ? c.gas->lower : c.gas->upper)[side / 2];
+      if (!is_wall(c, side) || std::abs(x[side / 2] - plane) > 2.0 * h) continue;
+      for (std::size_t k = 0, before = images.size(); k < before; ++k) {
+        images.push_back(images[k]);
+        images.back()[side / 2] = 2.0 * plane - x[side / 2];
+      }
+    }
+    for (const Vector& image : images) {
+      std::array<NodesOnLine, 3> s{};
+      for (std::size_t a = 0; a < 3; ++a) s[a] = a < D ? spline_at(image[a], h) : NodesOnLine{0, {1.0, 0.0, 0.0}};
+      for (int k = 0; k < (D == 3 ? 3 : 1); ++k)
+        for (int j = 0; j < 3; ++j)
+          for (int i = 0; i < 3; ++i)
+            fraction[{s[0].first + i, s[1].first + j, s[2].first + k}] +=
+                volume / std::pow(h, static_cast<double>(D)) * s[0].value[static_cast<std::size_t>(i)] *
+                s[1].value[static_cast<std::size_t>(j)] * s[2].value[static_cast<std::size_t>(k)];
+    }
+  }
+  constexpr double half = 0.5;
+  double largest = 0.0;
+  for (const auto& [node, filled] : fraction) largest = std::max(largest, filled);
+  return largest > half;
+}
+
+}  // namespace
+
+MovingBody make_body(const Case& c, const GasBodyConfig& config) {
+  MovingBody body = body_of(c, config);
   if (body.places.empty())
     throw std::runtime_error(
         fmt::format("{}: the body gets no particles; its shape must reach a middle of the parts of {:.4g} m "
                     "into which the cells are cut",
-                    config.name, spacing / samples_per_direction));
+                    config.name, c.cell_size / config.particles_per_direction / samples_per_direction));
+  const bool round = c.geometry == Geometry::axisymmetric;
   check_radial_motion(config, body);
   const auto amplitude = [table = config.amplitude](double time) { return table ? (*table)(time) : 1.0; };
   if (config.velocity != Vector{}) body.motion.velocity = [=, v = config.velocity](double time) { return amplitude(time) * v; };
@@ -65,6 +120,34 @@ MovingBody make_body(const Case& c, const GasBodyConfig& config) {
   return body;
 }
 
+std::vector<std::string> faults_of_bodies(const Case& c) {
+  std::vector<std::string> faults;
+  const std::vector<GasBodyConfig>& bodies = c.gas->bodies;
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    for (std::size_t m = 0; m < n; ++m) {
+      const Shape both{Intersection{{bodies[m].shape, bodies[n].shape}}};
+      const double shared = volume(both, c.geometry, c.cell_size / bodies[n].particles_per_direction / samples_per_direction);
+      if (!(shared > 0.0)) continue;
+      const Bounds there = bounds(both);
+      const Vector middle = 0.5 * (there.lower + there.upper);
+      faults.push_back(
+          fmt::format("{} and {} overlap near ({:.4g}, {:.4g}, {:.4g}) m; bodies in the gas must lie apart; move one of them, "
+                      "or make them one body, a union",
+                      bodies[m].name, bodies[n].name, middle[0], middle[1], middle[2]));
+    }
+    constexpr double thin = 3.0;  // cells: what is thicker shows
+    if (!thinnest_part(c, *bodies[n].shape, thin * c.cell_size) || shows(c, bodies[n])) continue;
+    constexpr double finer = 0.9, finest = 0.05;
+    Case other = c;
+    while (other.cell_size > finest * c.cell_size && !shows(other, bodies[n])) other.cell_size *= finer;
+    faults.push_back(
+        fmt::format("{} is so thin that the gas does not see it: none of the nodes of the grid is half full of it; cells of "
+                    "{:.4g} m would show it; take such, or make it thicker",
+                    bodies[n].name, other.cell_size));
+  }
+  return faults;
+}
+
 std::vector<std::string> warnings_of_bodies(const Case& c) {
   std::vector<std::string> warnings;
   if (!c.gas) return warnings;
@@ -72,10 +155,7 @@ std::vector<std::string> warnings_of_bodies(const Case& c) {
   // What walls mirror makes a body thicker.
   Case mirrored = c;
   for (std::size_t side = 0; side < static_cast<std::size_t>(2 * c.dimensions()); ++side) {
-    const bool wall = std::none_of(c.gas->edges.begin(), c.gas->edges.end(), [&](const EdgeConfig& edge) {
-      return edge.side == static_cast<BoxSide>(side) && edge.kind != EdgeKind::wall;
-    });
-    if (!wall) continue;
+    if (!is_wall(c, side)) continue;
     BoundaryConfig plane;
     plane.axis = static_cast<Axis>(side / 2), plane.side = side % 2 == 0 ? Side::above : Side::below;
     plane.position = (side % 2 == 0 ? c.gas->lower : c.gas->upper)[side / 2];
@@ -91,12 +171,6 @@ std::vector<std::string> warnings_of_bodies(const Case& c) {
     };
     if (apart(c.gas->lower, c.gas->upper))
       warnings.push_back(fmt::format("{}: it starts outside the box of the gas", body.name));
-    for (std::size_t m = 0; m < n; ++m) {
-      const Bounds other = bounds(*c.gas->bodies[m].shape);
-      if (!apart(other.lower, other.upper))
-        warnings.push_back(fmt::format("{} and {}: their boxes overlap; bodies in the gas know nothing of each other",
-                                       body.name, c.gas->bodies[m].name));
-    }
     if (const auto thin = thinnest_part(mirrored, *body.shape, least_cells * c.cell_size))
       warnings.push_back(
           fmt::format("{}: near ({:.4g}, {:.4g}, {:.4g}) m it is {:.2g} cells thick, fewer than {:g}: gas may leak "

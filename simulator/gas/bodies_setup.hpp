@@ -12,6 +12,9 @@ namespace brisance::simulator::gas {
 /// The particles of a body and its motion. Throws std::runtime_error if it gets no particles.
 MovingBody make_body(const Case& c, const GasBodyConfig& config);
 
+/// Bodies that overlap, and such as the cells do not show at all: a sentence of each.
+std::vector<std::string> faults_of_bodies(const Case& c);
+
 /// Of walls through which gas would leak.
 std::vector<std::string> warnings_of_bodies(const Case& c);
 

@@ -13,6 +13,7 @@
 
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "simulator/case_checks.hpp"
+#include "simulator/gas/bodies_setup.hpp"
 #include "simulator/gas/classic.hpp"
 #include "simulator/gas/fields.hpp"
 #include "simulator/gas/initial_state.hpp"
@@ -155,18 +156,15 @@ void check_with_bodies(TableReader& in, const Case& c) {
   refuse(gas.heat_exchange > 0.0 || has_transport(gas.fluids), "viscosity or conduction");
   refuse(std::any_of(gas.fills.begin(), gas.fills.end(), [](const FillConfig& f) { return f.energy.has_value(); }),
          "the energy of a fill");
+  const bool drawn =
+      std::all_of(gas.bodies.begin(), gas.bodies.end(), [](const GasBodyConfig& b) { return b.shape != nullptr; });
+  if (drawn && c.cell_size > 0.0 && c.dimensions() > 1)
+    for (const std::string& fault : faults_of_bodies(c)) in.problem("body", fault);
 }
 
 /// The limits of classic.hpp.
 void check_classic(TableReader& in, const Case& c) {
-  const GasConfig& gas = *c.gas;
-  ClassicDemands demands{.round = is_round(c.geometry),
-                         .gravity = c.gravity != Vector{},
-                         .face_dissipation = gas.least_mach != GasConfig{}.least_mach,
-                         .implicit = gas.implicit,
-                         .transport = has_transport(gas.fluids),
-                         .reactions = !gas.reactions.empty()};
-  for (const EdgeConfig& edge : gas.edges) demands.edge(edge.kind);
+  const ClassicDemands demands = demands_of(*c.gas, c.geometry, c.gravity, !c.gas->reactions.empty());
   for (const std::string& reason : classic_limits(demands)) in.problem("scheme", reason);
 }
 

@@ -236,13 +236,7 @@ std::vector<std::string> classic_limits(const ClassicDemands& demands) {
 
 void open_classic(Gas& gas, const Domain& domain) {
   if (domain.size() > 1) throw std::runtime_error("ice_classic runs in one process only");
-  ClassicDemands demands{.round = is_round(gas.cells.geometry),
-                         .gravity = gas.gravity != Vector{},
-                         .face_dissipation = gas.least_mach != Gas{}.least_mach,
-                         .implicit = gas.implicit,
-                         .transport = has_transport(gas.fluids),
-                         .reactions = !gas.burns.empty()};
-  for (const Edge& edge : gas.edges) demands.edge(edge.kind);
+  const ClassicDemands demands = demands_of(gas, gas.cells.geometry, gas.gravity, !gas.burns.empty());
   if (const std::vector<std::string> reasons = classic_limits(demands); !reasons.empty())
     throw std::runtime_error(fmt::format("{}", fmt::join(reasons, "\n")));
   const Lattice lattice(gas);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "simulator/gas/gas.hpp"
+#include "simulator/gas/transport.hpp"
 
 namespace brisance::simulator::gas {
 
@@ -20,6 +21,18 @@ struct ClassicDemands {
        reactions = false;
   void edge(EdgeKind kind) { open_sides = open_sides || (kind != EdgeKind::wall && kind != EdgeKind::periodic); }
 };
+/// Of a gas, or of the configuration of one.
+template <class AnyGas>
+ClassicDemands demands_of(const AnyGas& gas, Geometry geometry, const Vector& gravity, bool reactions) {
+  ClassicDemands demands{.round = is_round(geometry),
+                         .gravity = gravity != Vector{},
+                         .face_dissipation = gas.least_mach != AnyGas{}.least_mach,
+                         .implicit = gas.implicit,
+                         .transport = has_transport(gas.fluids),
+                         .reactions = reactions};
+  for (const auto& edge : gas.edges) demands.edge(edge.kind);
+  return demands;
+}
 /// Why the classic scheme cannot do it, each with what to do; empty if it can.
 std::vector<std::string> classic_limits(const ClassicDemands& demands);
 /// Takes the state of the classic scheme from what the gas is filled with. Throws std::runtime_error with classic_limits.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "simulator/gas/contour.hpp"
+#include "simulator/gas/node_spline.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -87,16 +88,6 @@ void cut_cube(const Cells& cells, const Index& cell, const std::array<double, 8>
     if (!all_below(face)) s.area[static_cast<std::size_t>(a)][n] = whole.area[static_cast<std::size_t>(a)] * open_part(face);
   }
   if (!all_below(f)) s.volume[n] = gas_is_connected(f) ? whole.volume * open_part(f) : 0.0;
-}
-
-/// Quadratic B-spline at the nodes n-1, n, n+1.
-struct LineOfNodes {
-  int first;
-  std::array<double, 3> value;
-};
-LineOfNodes spline_at(double x, double h) {
-  const double u = x / h, n = std::floor(u + 0.5), xi = u - n;
-  return {static_cast<int>(n) - 1, {0.5 * (0.5 - xi) * (0.5 - xi), 0.75 - xi * xi, 0.5 * (0.5 + xi) * (0.5 + xi)}};
 }
 
 /// Where a coordinate and its images lie, as far as the window may see them.
@@ -227,10 +218,10 @@ void put_on_nodes(const Window& w, const Cells& cells, const BoxImages& images, 
         for (const Image& iy : along[1])
           for (const Image& ix : along[0]) {
             const std::array<Image, 3> image = {ix, iy, iz};
-            std::array<LineOfNodes, 3> s;
+            std::array<NodesOnLine, 3> s;
             Part stencil;
             for (std::size_t a = 0; a < 3; ++a) {
-              s[a] = a < D ? spline_at(image[a].x, h) : LineOfNodes{0, {1.0, 0.0, 0.0}};
+              s[a] = a < D ? spline_at(image[a].x, h) : NodesOnLine{0, {1.0, 0.0, 0.0}};
               stencil.lower[a] = s[a].first, stencil.upper[a] = s[a].first + (a < D ? 3 : 1);
             }
             const Part seen = common(stencil, inner(w, 0));

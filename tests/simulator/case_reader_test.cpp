@@ -353,6 +353,36 @@ TEST(CaseReader, ReadsBodiesInTheGas) {
   EXPECT_EQ(bodies[1].axis, Axis::y);
 }
 
+TEST(CaseReader, RefusesBodiesInTheGasThatOverlapOrDoNotShow) {
+  const auto changed = [](const std::string& from, const std::string& to) {
+    std::string text = bodies_in_gas;
+    text.replace(text.find(from), from.size(), to);
+    return problems_of(text);
+  };
+  const auto expect = [](const std::string& problems, const std::string& message) {
+    EXPECT_NE(problems.find(message), std::string::npos) << message << "\n" << problems;
+  };
+  EXPECT_EQ(changed("[\"15 mm\", \"5 mm\"]", "[\"12 mm\", \"5 mm\"]"), "none") << "they touch";
+  EXPECT_EQ(
+      changed("{ centre = [\"15 mm\", \"5 mm\"], radius = \"3 mm\" }", "{ centre = [\"5 mm\", \"5 mm\"], radius = \"1 mm\" }"),
+      "none")
+      << "within the ring";
+  expect(changed("[\"15 mm\", \"5 mm\"]", "[\"11.5 mm\", \"5 mm\"]"), "ring and shot overlap near (0.00875, 0.005, 0) m");
+  // A sheet of 0.6 cells whose middle lies between two lines of nodes.
+  const auto sheet = [](const std::string& top) {
+    return "{ box = { lower = [\"12 mm\", \"5.2 mm\"], upper = [\"18 mm\", \"" + top + "\"] } }";
+  };
+  const std::string shot = "{ sphere = { centre = [\"15 mm\", \"5 mm\"], radius = \"3 mm\" } }";
+  const std::string unseen = changed(shot, sheet("5.8 mm"));
+  expect(unseen, "shot is so thin that the gas does not see it");
+  EXPECT_EQ(changed(shot, sheet("6.3 mm")), "none") << "a sheet of 1.1 cells shows wherever it lies";
+  // The spline is at most 3/4, so that a sheet shows from 2/3 of a cell on where it lies best; from 1.05 on it does everywhere.
+  // Its particles know how thick it is to a tenth.
+  const double asked_for = std::stod(unseen.substr(unseen.find("cells of ") + 9));
+  EXPECT_GT(0.6e-3 / asked_for, 0.9 * 2.0 / 3.0);
+  EXPECT_LT(0.6e-3 / asked_for, 1.05 / 0.9) << "tried in steps of a tenth";
+}
+
 TEST(CaseReader, RefusesMotionsThatABodyInTheGasCannotMake) {
   const auto changed = [](const std::string& from, const std::string& to) {
     std::string text = bodies_in_gas;

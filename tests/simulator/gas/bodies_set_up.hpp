@@ -1,6 +1,9 @@
 #pragma once
 // Bodies of particles by hand: points of a lattice, turned by an angle, that a shape holds.
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -47,6 +50,49 @@ inline MovingBody ball(Geometry geometry, double cell_size, const Vector& centre
 }
 inline void give_velocity(MovingBody& body, const Vector& velocity) {
   body.motion.velocity = [velocity](double) { return velocity; };
+}
+
+inline constexpr double round_off = 1e-12;  // of sums that have passed hundreds of steps
+
+/// f(cell, open part) for the cells that hold gas.
+template <class F>
+void for_each_gas_cell(const Gas& gas, F&& f) {
+  for_each_cell(gas, [&](const set_up::Cell& c) {
+    const double open = open_part(gas, c.block, c.number);
+    if (open > 0.0) f(c, open);
+  });
+}
+
+/// The books of a step: what the gas holds now that it neither held at the start nor received.
+inline void expect_closed_books(const Gas& gas, Domain& domain, const std::string& what) {
+  Totals rest = totals(gas, domain);
+  double gross = 0.0;
+  for (const Totals& through : passed(gas, domain)) {
+    for (std::size_t r = 0; r < rest.mass.size(); ++r) rest.mass[r] -= through.mass[r];
+    rest.momentum = rest.momentum - through.momentum, rest.energy -= through.energy;
+    gross += magnitude(through.momentum);
+  }
+  for (std::size_t r = 0; r < rest.mass.size(); ++r)
+    EXPECT_NEAR(rest.mass[r], gas.initial.mass[r], round_off * gas.initial.mass[r]) << what;
+  EXPECT_NEAR(rest.energy, gas.initial.energy, round_off * gas.initial.energy) << what;
+  if (is_round(gas.cells.geometry)) rest.momentum[0] = gas.initial.momentum[0];  // walls push along the radius
+  const double motion = std::sqrt(2.0 * gas.initial.mass[0] * gas.initial.energy);
+  EXPECT_LT(magnitude(rest.momentum - gas.initial.momentum), round_off * (motion + gross)) << what;
+}
+
+/// Change of a pressure that was 1 everywhere: the largest, the mean over the gas.
+struct Noise {
+  double worst = 0.0, mean = 0.0;
+};
+inline Noise noise_in(const Gas& gas) {
+  Noise noise;
+  double sum = 0.0, volume = 0.0;
+  for_each_gas_cell(gas, [&](const Cell& c, double open) {
+    noise.worst = std::max(noise.worst, std::abs(c.pressure - 1.0));
+    sum += open * c.volume * std::abs(c.pressure - 1.0), volume += open * c.volume;
+  });
+  noise.mean = sum / volume;
+  return noise;
 }
 
 }  // namespace brisance::simulator::gas::set_up

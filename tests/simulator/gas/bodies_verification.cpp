@@ -19,35 +19,11 @@
 namespace brisance::simulator::gas {
 namespace {
 
+using set_up::expect_closed_books;
+using set_up::for_each_gas_cell;
+using set_up::Noise;
+using set_up::round_off;
 using set_up::Stepper;
-
-constexpr double round_off = 1e-12;  // of sums that have passed hundreds of steps
-
-/// f(cell, open part) for the cells that hold gas.
-template <class F>
-void for_each_gas_cell(const Gas& gas, F&& f) {
-  set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
-    const double open = open_part(gas, c.block, c.number);
-    if (open > 0.0) f(c, open);
-  });
-}
-
-/// The books of a step: what the gas holds now that it neither held at the start nor received.
-void expect_closed_books(const Gas& gas, Domain& domain, const std::string& what) {
-  Totals rest = totals(gas, domain);
-  double gross = 0.0;
-  for (const Totals& through : passed(gas, domain)) {
-    for (std::size_t r = 0; r < rest.mass.size(); ++r) rest.mass[r] -= through.mass[r];
-    rest.momentum = rest.momentum - through.momentum, rest.energy -= through.energy;
-    gross += magnitude(through.momentum);
-  }
-  for (std::size_t r = 0; r < rest.mass.size(); ++r)
-    EXPECT_NEAR(rest.mass[r], gas.initial.mass[r], round_off * gas.initial.mass[r]) << what;
-  EXPECT_NEAR(rest.energy, gas.initial.energy, round_off * gas.initial.energy) << what;
-  if (is_round(gas.cells.geometry)) rest.momentum[0] = gas.initial.momentum[0];  // walls push along the radius
-  const double motion = std::sqrt(2.0 * gas.initial.mass[0] * gas.initial.energy);
-  EXPECT_LT(magnitude(rest.momentum - gas.initial.momentum), round_off * (motion + gross)) << what;
-}
 
 // At rest --------------------------------------------------------------------------------------------------------------
 
@@ -93,10 +69,8 @@ TEST(GasAtRest, AroundASphereAboutTheAxisStaysAtRest) {
 
 // Moving with the gas --------------------------------------------------------------------------------------------------
 
-struct Noise {
-  double worst = 0.0, mean = 0.0;  // of the pressure: largest at any time, mean at the end
-};
-/// A body that moves with the gas at a Mach number, through a box that gas flows into and out of.
+/// The largest noise at any time, the mean at the end, of a body that moves with the gas at a Mach number, through a box that
+/// gas flows into and out of.
 Noise noise_of(Geometry geometry, double cell_size, const std::array<int, 3>& lower, const std::array<int, 3>& upper,
                MovingBody body, const Vector& velocity, double way) {
   const auto domain = single_process();
@@ -114,12 +88,8 @@ Noise noise_of(Geometry geometry, double cell_size, const std::array<int, 3>& lo
   const double end = way / magnitude(velocity);
   while (gas.time < end * (1.0 - 1e-9)) {
     stepper.to(gas, std::min(end, gas.time + 0.02 * end), *domain);
-    double largest = 0.0, sum = 0.0, volume = 0.0;
-    for_each_gas_cell(gas, [&](const set_up::Cell& c, double open) {
-      largest = std::max(largest, std::abs(c.pressure - 1.0));
-      sum += open * c.volume * std::abs(c.pressure - 1.0), volume += open * c.volume;
-    });
-    noise.worst = std::max(noise.worst, largest), noise.mean = sum / volume;
+    const Noise now = set_up::noise_in(gas);
+    noise = {std::max(noise.worst, now.worst), now.mean};
   }
   EXPECT_EQ(stepper.rejected, 0);
   expect_closed_books(gas, *domain, "with the gas");
