@@ -37,19 +37,19 @@ std::array<double, most_sides> reach_of(const Case& c, const MovingBody& body, d
   return reach;
 }
 
-EdgeKind kind_of(const Case& c, std::size_t side) {
+bool is_wall(const Case& c, std::size_t side) {
   for (const EdgeConfig& edge : c.gas->edges)
-    if (static_cast<std::size_t>(edge.side) == side) return edge.kind;
-  return EdgeKind::wall;
+    if (static_cast<std::size_t>(edge.side) == side) return edge.kind == EdgeKind::wall || edge.kind == EdgeKind::no_slip;
+  return true;
 }
 
-/// What a body does at one side, from what it reaches there from time to time.
-class Side {
+/// What a body does at one wall, from what it reaches there from time to time.
+class Wall {
  public:
-  Side(EdgeKind kind, double cell_size, double at_start) : kind_(kind), cell_size_(cell_size), start_(at_start) {}
+  Wall(double cell_size, double at_start) : cell_size_(cell_size), start_(at_start) {}
 
   void look(double before, double now, double time_before, double time) {
-    if (before == nowhere || now == nowhere) return;  // it is not beside the side, or leaves it sideways
+    if (before == nowhere || now == nowhere) return;  // it is not beside the wall, or leaves it sideways
     constexpr double rounding = 1e-6;
     const double half = 0.5 * cell_size_, least = rounding * cell_size_;
     using Kind = ForeseenMeeting::Kind;
@@ -62,9 +62,7 @@ class Side {
       const double part = now == before ? 0.0 : std::clamp((at - before) / (now - before), 0.0, 1.0);
       found_ = ForeseenMeeting{"", "", what, std::lerp(time_before, time, part), std::max(-now, 0.0)};
     };
-    if (kind_ != EdgeKind::wall && kind_ != EdgeKind::no_slip) {
-      if (moves && now > -half) note(Kind::reaches_open_side, -half);
-    } else if (start_ > -half && now < before) {  // what lies at the wall, or too near to it for gas between
+    if (start_ > -half && now < before) {  // what lies at the wall, or too near to it for gas between
       if (moves && now < -least) note(Kind::lets_go_of_wall, std::min(start_, 0.0));
     } else if (start_ < -least && moves && now > -half) {
       note(Kind::runs_into_wall, -half);
@@ -73,7 +71,6 @@ class Side {
   const std::optional<ForeseenMeeting>& found() const { return found_; }
 
  private:
-  EdgeKind kind_;
   double cell_size_, start_;
   std::optional<ForeseenMeeting> found_;
 };
@@ -91,20 +88,19 @@ std::vector<ForeseenMeeting> foreseen_meetings(const Case& c) {
     const int looks = static_cast<int>(std::clamp(most_places / static_cast<double>(body.places.size()), 50.0, 400.0));
     const double half_width = 0.5 * c.cell_size / config.particles_per_direction;
     std::array<double, most_sides> before = reach_of(c, body, half_width);
-    std::vector<std::pair<std::size_t, Side>> sides;
+    std::vector<std::pair<std::size_t, Wall>> walls;
     for (std::size_t side = 0; side < static_cast<std::size_t>(2 * c.dimensions()); ++side) {
       const bool axis = is_round(c.geometry) && side == 0 && c.gas->lower[0] == 0.0;
-      if (!axis && kind_of(c, side) != EdgeKind::periodic)
-        sides.emplace_back(side, Side(kind_of(c, side), c.cell_size, before[side]));
+      if (!axis && is_wall(c, side)) walls.emplace_back(side, Wall(c.cell_size, before[side]));
     }
     for (int n = 0; n < looks; ++n) {
       const double from = c.end_time * n / looks, to = c.end_time * (n + 1) / looks;
       body.state = moved(body, from, to - from);
       const std::array<double, most_sides> now = reach_of(c, body, half_width);
-      for (auto& [side, watch] : sides) watch.look(before[side], now[side], from, to);
+      for (auto& [side, watch] : walls) watch.look(before[side], now[side], from, to);
       before = now;
     }
-    for (const auto& [side, watch] : sides)
+    for (const auto& [side, watch] : walls)
       if (watch.found()) {
         meetings.push_back(*watch.found());
         meetings.back().body = config.name, meetings.back().side = choices<BoxSide>[side];
@@ -127,11 +123,6 @@ std::string in_words(const ForeseenMeeting& m) {
           "{}: at {:.4g} s it lets go of the wall {}, and there is no gas that could fill the room behind it: the run ends "
           "soon after; let the body reach {:.4g} m farther beyond the wall at the start",
           m.body, m.time, m.side, m.missing);
-    case Kind::reaches_open_side:
-      return fmt::format(
-          "{}: at {:.4g} s it reaches the open side {}, which bodies cannot move through: the run ends there; end it before "
-          "that (end_time), or place the side farther away",
-          m.body, m.time, m.side);
   }
   return {};
 }

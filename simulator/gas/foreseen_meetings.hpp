@@ -1,5 +1,5 @@
 #pragma once
-// What bodies with a prescribed motion will do at the sides of the box that ends a run: known before it begins.
+// What bodies with a prescribed motion will do at the walls of the box that ends a run: known before it begins.
 
 #include <cstddef>
 #include <string>
@@ -11,9 +11,8 @@ namespace brisance::simulator::gas {
 
 struct ForeseenMeeting {
   enum class Kind {
-    runs_into_wall,    // comes within half a cell of it: the gas between has nowhere to go
-    lets_go_of_wall,   // was at the wall and moves off: there is no gas that could widen into the room behind it
-    reaches_open_side  // bodies cannot move through it
+    runs_into_wall,  // comes within half a cell of it: the gas between has nowhere to go
+    lets_go_of_wall  // was at the wall and moves off: there is no gas that could widen into the room behind it
   };
   std::string body, side;  // by their names in the case
   Kind kind;
