@@ -57,7 +57,7 @@ inline constexpr double round_off = 1e-12;  // of sums that have passed hundreds
 /// f(cell, open part) for the cells that hold gas.
 template <class F>
 void for_each_gas_cell(const Gas& gas, F&& f) {
-  for_each_cell(gas, [&](const set_up::Cell& c) {
+  set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
     const double open = open_part(gas, c.block, c.number);
     if (open > 0.0) f(c, open);
   });
