@@ -131,8 +131,8 @@ std::vector<std::string> set_up_warnings(const Case& c) {
     if (auto cold = very_cold(body.name, body.temperature)) warnings.push_back(std::move(*cold));
   if (c.gas)
     for (const FillConfig& fill : c.gas->fills)
-      if (fill.temperature)
-        if (auto cold = very_cold(fill.fluid, *fill.temperature)) warnings.push_back(std::move(*cold));
+      if (fill.temperature && !fill.temperature->formula)
+        if (auto cold = very_cold(fill.fluid, fill.temperature->number)) warnings.push_back(std::move(*cold));
   for (const BodyConfig& body : c.bodies) {
     const std::optional<double> melting = melting_temperature(body.material.material, body.temperature);
     if (melting && body.temperature >= *melting)

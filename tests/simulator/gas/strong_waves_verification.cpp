@@ -300,7 +300,7 @@ TEST(Sedov, FrontIsWhereItShouldBeOnARadius) {
       const Rays rays(gas);
       const double peak = rays.peak({1.0, 0.0, 0.0}, 1.2 * blast.radius);
       const double front = rays.front({1.0, 0.0, 0.0}, 1.1 * blast.radius, 0.5 * (peak + 1.0));
-      constexpr double missed = 1e-4;  // on the sphere the goal is missed by 3e-5 at the coarser cells
+      const double missed = fine ? 0.0 : 1e-4;  // on the sphere by 3e-5
       EXPECT_NEAR(front, blast.radius, 0.5 * h + 3e-3 * blast.radius + missed) << g.name;
       constexpr double as_other_code = 0.02;
       EXPECT_GT(peak, peaks[static_cast<std::size_t>(fine)] * (1.0 - as_other_code)) << g.name;
@@ -309,8 +309,8 @@ TEST(Sedov, FrontIsWhereItShouldBeOnARadius) {
       const std::size_t inside = static_cast<std::size_t>(0.3 * blast.radius / h);
       const double pressure =
           Sedov(1.4, blast.symmetry, blast.energy).at((static_cast<double>(inside) + 0.5) * h, 1.0).pressure;
-      EXPECT_NEAR(set_up::profile(gas)[inside].pressure / pressure, 1.0, 0.03)
-          << g.name;  // the goal is 0.01; in the plane it is 0.027
+      // The goal is 0.01. The source is of three cells, so the coarser ones start with one twice as large: in the plane 0.027.
+      EXPECT_NEAR(set_up::profile(gas)[inside].pressure / pressure, 1.0, fine ? 0.01 : 0.03) << g.name;
       RecordProperty("sedov_" + g.name + (fine ? "_fine" : "_coarse"),
                      std::to_string(front) + ", peak " + std::to_string(peak));
     }
