@@ -63,7 +63,7 @@ TEST_P(Fast, BarRunsToItsEndOnAWall) {
   const auto [name, speed] = GetParam();
   const double coarse = numerical_part(name, speed, "1.27 mm"), fine = numerical_part(name, speed, "0.635 mm");
   std::printf("%s at %.0f m/s: numerical books %.2f %% of the kinetic energy on three cells in the radius, %.2f %% on six\n",
-              name, speed, 100.0 * coarse, 100.0 * fine);
+              name.c_str(), speed, 100.0 * coarse, 100.0 * fine);
   // The metal leaves in a sheet along the wall that is thinner than a cell. The node inside then carries the normal motion of
   // all of it with a mass that is too large by the cell over the thickness, and what the sheet keeps of it too long becomes
   // energy. Of second order from three to six cells: a quarter is left, and half as much more is allowed for.

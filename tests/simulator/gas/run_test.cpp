@@ -56,7 +56,7 @@ TEST(GasRun, HistoryHasTheSameColumnsFromTheFirstRowOn) {
     EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ','));
 }
 
-/// A block pushes into another one that it is built into from the start.
+/// A block pushes into another one that it touches from the start.
 TEST(GasRun, ThatEndsBecauseBodiesMeetEndsTheSameInPartsAndWhenResumed) {
   const fs::path directory = scratch();
   const Case c = read_case(write_text(directory / "blocks.toml", R"(
@@ -83,7 +83,7 @@ density = 1.2
 pressure = 1e5
 [[gas.body]]
 name = "left"
-shape = { box = { lower = [0.1, 0.05], upper = [0.21, 0.15] } }
+shape = { box = { lower = [0.1, 0.05], upper = [0.2, 0.15] } }
 [[gas.body]]
 name = "right"
 shape = { box = { lower = [0.2, 0.05], upper = [0.3, 0.15] } }
