@@ -92,7 +92,12 @@ double available_memory() {
   std::ifstream meminfo("/proc/meminfo");
   for (std::string word; meminfo >> word;)
     if (double kilobytes = 0.0; word == "MemAvailable:" && meminfo >> kilobytes) available = 1024.0 * kilobytes;
-  const double limit = number_in("/sys/fs/cgroup/memory.max"), used = number_in("/sys/fs/cgroup/memory.current");
+  // Files that are kept in memory for later make room when it is needed.
+  double files = 0.0;
+  std::ifstream statistics("/sys/fs/cgroup/memory.stat");
+  for (std::string word; statistics >> word;)
+    if (double bytes = 0.0; (word == "active_file" || word == "inactive_file") && statistics >> bytes) files += bytes;
+  const double limit = number_in("/sys/fs/cgroup/memory.max"), used = number_in("/sys/fs/cgroup/memory.current") - files;
   if (std::isfinite(limit) && std::isfinite(used)) available = std::min(available, std::max(limit - used, 0.0));
   rlimit own{};
   if (getrlimit(RLIMIT_AS, &own) == 0 && own.rlim_cur != RLIM_INFINITY)

@@ -1,6 +1,7 @@
 #pragma once
 // From the case to the bodies in the gas.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ MovingBody make_body(const Case& c, const GasBodyConfig& config);
 
 /// Bodies that overlap, and such as the cells do not show at all: a sentence of each.
 std::vector<std::string> faults_of_bodies(const Case& c);
+
+/// Whether a side of the box is a wall.
+bool is_wall(const Case& c, std::size_t side);
 
 /// Of walls through which gas would leak.
 std::vector<std::string> warnings_of_bodies(const Case& c);

@@ -179,8 +179,15 @@ void fill_beyond(Gas& gas) {
       s.plain[n] = s.plain[source];
       s.primitive[Primitive::velocity + a][n] *= sign, s.content[Content::momentum + a][n] *= sign;
       if (edge.kind == EdgeKind::wall) return;
+      // Contents are those of whole cells, which about an axis are the wider the farther out they lie.
+      const double wider = whole_cell(cells, cell[0]).volume / whole_cell(cells, from[0]).volume;
+      for (Column& column : s.content) column[n] *= wider;
       Vector x{};
-      for (std::size_t b = 0; b < static_cast<std::size_t>(w.dimensions); ++b) x[b] = (cell[b] + 0.5) * cells.cell_size;
+      for (std::size_t b = 0; b < static_cast<std::size_t>(w.dimensions); ++b) {
+        // What lies beyond two sides is as beside the corner: a state beyond one of them need not make sense there.
+        const int nearest = b == a ? cell[b] : std::clamp(cell[b], cells.lower[b], cells.upper[b] - 1);
+        x[b] = (nearest + 0.5) * cells.cell_size;
+      }
       const double outwards = (cell[a] < lower ? -1.0 : 1.0) * s.primitive[Primitive::velocity + a][source];
       const double part = share_of_beyond(edge.kind, outwards / s.primitive[Primitive::sound_speed][source]);
       if (part == 0.0) return;
@@ -194,8 +201,8 @@ void fill_beyond(Gas& gas) {
       for (std::size_t b = 0; b < static_cast<std::size_t>(w.dimensions); ++b)
         velocity[b] = s.primitive[Primitive::velocity + b][n];
       const double density = s.primitive[Primitive::density][n];
-      for (std::vector<Column>* columns : {&s.primitive, &s.content})
-        for (Column& column : *columns) column[n] = part * column[n] + (1.0 - part) * column[source];
+      for (Column& column : s.primitive) column[n] = part * column[n] + (1.0 - part) * column[source];
+      for (Column& column : s.content) column[n] = part * column[n] + (1.0 - part) * wider * column[source];
       const double of_velocity = part * density / s.primitive[Primitive::density][n];  // momentum is mixed
       for (std::size_t b = 0; b < static_cast<std::size_t>(w.dimensions); ++b)
         s.primitive[Primitive::velocity + b][n] =

@@ -15,6 +15,7 @@
 #include "simulator/case_checks.hpp"
 #include "simulator/gas/bodies_setup.hpp"
 #include "simulator/gas/classic.hpp"
+#include "simulator/gas/cut_cells.hpp"
 #include "simulator/gas/fields.hpp"
 #include "simulator/gas/initial_state.hpp"
 #include "simulator/gas/reaction.hpp"
@@ -172,16 +173,22 @@ bool is_zero(const VaryingVector& velocity) {
   return !velocity.varies() && velocity.numbers() == Vector{};
 }
 
-/// Reports the first place of some, in the middles of a lattice of cells, where a formula makes no state at the start.
-void check_formulas_at(TableReader& in, const GasStateConfig& state, const Case& c, std::array<int, 3> first,
-                       std::array<int, 3> last, const Shape* shape) {
+/// Reports the first place of some, in the middles of a lattice of cells, where a formula makes no state at the start. Of very
+/// many cells it looks at some alone.
+void check_formulas_at(TableReader& in, const GasStateConfig& state, const Case& c, std::array<double, 3> first,
+                       std::array<double, 3> last, const Shape* shape) {
   std::optional<Fluid> fluid;
   if (const FluidConfig* given = find_fluid(c, state.fluid)) fluid = {given->name, given->material.material.equation_of_state};
-  for (int k = first[2]; k < last[2]; ++k)
-    for (int j = first[1]; j < last[1]; ++j)
-      for (int i = first[0]; i < last[0]; ++i) {
+  constexpr double most_places = 1e5;
+  std::array<double, 3> step{1.0, 1.0, 1.0};  // cells; no number of cells is too large for them
+  const double dimensions = c.dimensions();
+  for (std::size_t a = 0; a < dimensions_of(c); ++a)
+    step[a] = std::max(1.0, std::floor((last[a] - first[a]) / std::pow(most_places, 1.0 / dimensions)));
+  for (double k = first[2]; k < last[2]; k += step[2])
+    for (double j = first[1]; j < last[1]; j += step[1])
+      for (double i = first[0]; i < last[0]; i += step[0]) {
         Vector x{};
-        const std::array<int, 3> index{i, j, k};
+        const std::array<double, 3> index{i, j, k};
         for (std::size_t a = 0; a < dimensions_of(c); ++a) x[a] = (index[a] + 0.5) * c.cell_size;
         if (shape && !contains(*shape, x)) continue;
         try {
@@ -192,28 +199,28 @@ void check_formulas_at(TableReader& in, const GasStateConfig& state, const Case&
       }
 }
 /// The cells of the box; what is wrong with it is reported elsewhere.
-bool find_cells(const Case& c, std::array<int, 3>& first, std::array<int, 3>& last) {
+bool find_cells(const Case& c, std::array<double, 3>& first, std::array<double, 3>& last) {
   first = {0, 0, 0}, last = {1, 1, 1};
   for (std::size_t a = 0; a < dimensions_of(c); ++a) {
     if (!(c.cell_size > 0.0) || !(c.gas->lower[a] < c.gas->upper[a])) return false;
-    first[a] = static_cast<int>(std::lround(c.gas->lower[a] / c.cell_size));
-    last[a] = static_cast<int>(std::lround(c.gas->upper[a] / c.cell_size));
+    first[a] = std::round(c.gas->lower[a] / c.cell_size), last[a] = std::round(c.gas->upper[a] / c.cell_size);
   }
   return true;
 }
 void check_formulas(TableReader& in, const FillConfig& fill, const Case& c) {
-  std::array<int, 3> first, last;
+  std::array<double, 3> first, last;
   if (varies(fill) && !fill.profile && !fill.energy && find_cells(c, first, last))
     check_formulas_at(in, fill, c, first, last, fill.shape.get());
 }
 void check_formulas(TableReader& in, const EdgeConfig& edge, const Case& c) {
-  std::array<int, 3> first, last;
+  std::array<double, 3> first, last;
+  const double cells = c.gas->bodies.empty() ? ring : Window::depth;  // beyond the side: with bodies its neighbourhoods as well
   const std::size_t axis = static_cast<std::size_t>(edge.side) / 2;
   if (!varies(edge) || axis >= dimensions_of(c) || !find_cells(c, first, last)) return;
   if (static_cast<std::size_t>(edge.side) % 2 == 0)
-    last[axis] = first[axis], first[axis] -= ring;
+    last[axis] = first[axis], first[axis] -= cells;
   else
-    first[axis] = last[axis], last[axis] += ring;
+    first[axis] = last[axis], last[axis] += cells;
   check_formulas_at(in, edge, c, first, last, nullptr);
 }
 
@@ -240,7 +247,7 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
   const std::size_t before = in.problem_count();
   check_gas_state(in, fill, c, elsewhere);
   if (in.problem_count() == before) check_formulas(in, fill, c);
-  if (profile && !fill.energy) check_rows(in, fill, *profile, c);
+  if (profile && !fill.energy && !varies(fill)) check_rows(in, fill, *profile, c);
   if (others.empty() && fill.shape) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
   if (!others.empty() && !fill.shape)
     in.problem(
@@ -266,6 +273,8 @@ void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& oth
     check_gas_state(in, edge, c);
   } else if (edge.kind == EdgeKind::pressure) {
     if (!in.has("pressure")) in.problem("pressure", "missing: the pressure beyond");
+    if (edge.pressure && edge.pressure->number < 0.0)
+      in.problem("pressure", fmt::format("{:.6g} Pa; nothing outside pulls; it must be non-negative", edge.pressure->number));
     if (more) in.problem("only the pressure counts beyond an edge of this kind; remove the rest, or make it non_reflecting");
   } else if (edge.kind == EdgeKind::no_slip) {
     if (in.has("pressure") || in.has("density") || in.has("fluid"))

@@ -37,12 +37,6 @@ std::array<double, most_sides> reach_of(const Case& c, const MovingBody& body, d
   return reach;
 }
 
-bool is_wall(const Case& c, std::size_t side) {
-  for (const EdgeConfig& edge : c.gas->edges)
-    if (static_cast<std::size_t>(edge.side) == side) return edge.kind == EdgeKind::wall || edge.kind == EdgeKind::no_slip;
-  return true;
-}
-
 /// What a body does at one wall, from what it reaches there from time to time.
 class Wall {
  public:

@@ -85,7 +85,7 @@ Filling state_at(const GasStateConfig& state, int number, const Fluid* fluid, co
   filling.fluid = number;
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimensions); ++a)
     filling.velocity[a] = value("velocity", state.velocity.components[a], any_value);
-  if (state.pressure) filling.pressure = value("pressure", *state.pressure, any_value);
+  if (state.pressure) filling.pressure = value("pressure", *state.pressure, fluid ? any_value : non_negative);
   if (!fluid) return filling;
   if (state.density) filling.density = value("density", *state.density, positive);
   if (state.temperature) {

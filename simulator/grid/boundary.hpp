@@ -17,7 +17,7 @@ struct Boundary {
   int axis = 0;
   int node = 0;           // index of the plane
   int inward = 1;         // +1: the bodies are above
-  double position = 0.0;  // m, from the grid's origin
+  double position = 0.0;  // m, from the grid's origin; of an outflow in space
   double friction = 0.0;
   Table velocity;             // m/s against s, along the axis; empty: it stands
   bool carries_grid = false;  // the plane travels, and the grid with it

@@ -64,6 +64,30 @@ TEST(BodyThatMovesWithTheGas, EntersAndLeavesTheBoxAsQuietlyAsItGoesRoundAPeriod
   RecordProperty("through", std::to_string(through.worst) + ", " + std::to_string(through.mean));
 }
 
+/// What comes through a side along the radius, where cells beyond are wider than those inside, is as dense as without a body
+/// that has nothing to do with it.
+TEST(SideAlongTheRadius, LetsInWhatItDoesWithoutBodies) {
+  const auto mass = [](bool with_body) {
+    constexpr double h = 0.01, inside = 1e5, outside = 1.2e5, air = 1e-3;
+    const auto domain = single_process();
+    Gas gas = set_up::box(Geometry::axisymmetric, h, {0, 0, 0}, {10, 8, 0}, {set_up::ideal_gas()}, *domain);
+    gas.edges[1] = set_up::beyond(EdgeKind::pressure, {0, 1.0, outside, {}});
+    if (with_body) gas.bodies.all = {set_up::ball(Geometry::axisymmetric, h, {0.0, 0.5, 0.0}, 3.0 * h, 0.0)};
+    fill(
+        gas,
+        [&](const Vector&, double) {
+          return Filling{0, 1.0, inside, {}};
+        },
+        *domain);
+    Stepper().to(gas, air, *domain);
+    set_up::expect_closed_books(gas, *domain, "radius");
+    return totals(gas, *domain).mass[0];
+  };
+  constexpr double of_the_scheme = 5e-3;  // one sweeps axis by axis, the other at once
+  const double without = mass(false);
+  EXPECT_NEAR(mass(true), without, of_the_scheme * without);
+}
+
 /// A projectile in a tube of 0.25 m: the gas of 10 MPa drives it as simple waves do until its back leaves the muzzle.
 TEST(Projectile, LeavesTheMuzzle) {
   constexpr double p0 = 1e7, rho0 = 10.0, gamma = 1.4, mass_per_area = 50.0, ahead = 100.0, h = 0.01, near = 1e-3;
