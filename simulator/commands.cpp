@@ -54,7 +54,7 @@ int tell(const RunResult& result, const Path& directory) {
   switch (result.ending) {
     case Ending::failed:
       std::fflush(stdout);
-      fmt::print(stderr, "{}\n", result.message);
+      fmt::print(stderr, "{}\npictures of what was reached: brisance report {}\n", result.message, directory.string());
       return failed_while_running;
     case Ending::interrupted:
       std::fflush(stdout);
@@ -158,6 +158,18 @@ int list_cases() {
 int list(const std::string& what) {
   if (what == "cases") return list_cases();
   const auto row = [](std::string_view title, auto&& names) { fmt::print("{}\n  {}\n", title, fmt::join(names, ", ")); };
+  constexpr std::string_view of_materials = "materials that come with the program";
+  std::vector<std::string> materials;
+  for (const Path& file : bundled_materials()) materials.push_back(file.filename().string());
+  if (what == "materials") {
+    row(of_materials, materials);
+    return done;
+  }
+  if (!what.empty()) {
+    fmt::print(stderr, "list: {} is no list; give cases, materials, or nothing{}\n", in_quotes(what),
+               did_you_mean(what, std::array<std::string_view, 2>{"cases", "materials"}));
+    return bad_input;
+  }
   row("geometries", choices<Geometry>), row("shapes", shape_forms), row("boundaries", choices<BoundaryKind>);
   row("gauges", choices<GaugeKind>), row("fields of gauges", gauge_fields), row("measures", choices<MeasureKind>);
   row("edges of gas", choices<EdgeKind>), row("sides of its box", choices<BoxSide>), row("fields of gas", gas_field_names());
@@ -167,9 +179,7 @@ int list(const std::string& what) {
   row("laws of reactions", reactions), row("schemes of gas", choices<GasScheme>), row("figures", choices<FigureKind>);
   row("basis functions", choices<Basis>), row("stress timings", choices<StressTiming>),
       row("particle velocities", choices<ParticleVelocity>);
-  std::vector<std::string> materials;
-  for (const Path& file : bundled_materials()) materials.push_back(file.filename().string());
-  row("materials that come with the program", materials);
+  row(of_materials, materials);
   fmt::print(
       "`brisance describe NAME` explains these words and materials, the keys of a case file and the laws, which `pointdriver "
       "list` names; `brisance list cases` names the cases that come with the program\n");
@@ -246,7 +256,7 @@ int run_command_line(int argc, char** argv) {
   report_command->callback([&] { code = report_run(o); });
 
   CLI::App* list_command = app.add_subcommand("list", "Materials, shapes, boundaries, fields, laws of reactions; cases");
-  list_command->add_option("WHAT", o.key, "`cases`: those that come with the program")->check(CLI::IsMember({"cases"}));
+  list_command->add_option("WHAT", o.key, "`cases` or `materials`: those that come with the program");
   list_command->callback([&] { code = list(o.key); });
 
   CLI::App* describe_command =

@@ -50,8 +50,9 @@ class Describer : public KeyDescriber<Describer> {
   template <class Config, class T>
   static std::string formula_of(const Key<Config, T>&) {
     const bool edge = std::is_same_v<Config, EdgeConfig>;
-    return std::string(", or a formula in SI units such as ") + (edge ? "\"2*(1 + t/r)\"" : "\"2*(1 + x/r)\"") +
-           " in x, y, z, r (distance from the origin)" + (edge ? ", t" : "") + " and pi";
+    return std::string(", or a formula in SI units such as ") + (edge ? "\"1 + 0.1*sin(2*pi*t)\"" : "\"1 + exp(-x^2)\"") +
+           " in x, y, z, r (distance from the origin)" + (edge ? ", t" : "") +
+           " and pi, with + - * / ^, a ? b : c and functions such as sqrt, exp, ln, sin, cos";
   }
   template <class K>
   void describe(const std::string& path, const K& key, const std::optional<Varying>&) {

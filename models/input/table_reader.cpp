@@ -170,6 +170,12 @@ double TableReader::number_or(std::string_view key, double default_value, const 
 NumberOrText TableReader::number_or_text_in(const TomlNode& node, const std::string& path, const Quantity& quantity) {
   const auto* const text = std::get_if<std::string>(&node.value);
   if (text && !is_number_with_unit(*text)) return {0.0, *text};
+  if (text && (text->find(" + ") != std::string::npos || text->find(" - ") != std::string::npos)) {
+    report(node.place, path,
+           in_quotes(*text) +
+               " is neither a number with a unit nor a formula: in a formula numbers have no units; write them in SI");
+    return {};
+  }
   return {number_in(node, path, quantity).value_or(0.0), ""};
 }
 

@@ -54,7 +54,8 @@ MovingBody body_of(const Case& c, const GasBodyConfig& config) {
   return body;
 }
 
-/// How full of a body the fullest node of the grid is. What is near a wall of the box has a mirror image.
+/// How full of a body the fullest node of the grid is. What is near a wall of the box has a mirror image in the place of what
+/// lies beyond it.
 double fullest_node(const Case& c, const GasBodyConfig& config) {
   const MovingBody body = body_of(c, config);
   const double h = c.cell_size;
@@ -69,8 +70,11 @@ double fullest_node(const Case& c, const GasBodyConfig& config) {
     const double volume = body.volumes[p] / (c.geometry == Geometry::axisymmetric ? x[0] : 1.0);
     std::vector<Vector> images = {x};
     for (std::size_t side = 0; side < 2 * D; ++side) {
+      if (!is_wall(c, side)) continue;
       const double plane = (side % 2 == 0 ? c.gas->lower : c.gas->upper)[side / 2];
-      if (!is_wall(c, side) || std::abs(x[side / 2] - plane) > 2.0 * h) continue;
+      const double inwards = (side % 2 == 0 ? 1.0 : -1.0) * (x[side / 2] - plane);
+      if (inwards < 0.0) images.clear();
+      if (inwards > 2.0 * h) continue;
       for (std::size_t k = 0, before = images.size(); k < before; ++k) {
         images.push_back(images[k]);
         images.back()[side / 2] = 2.0 * plane - x[side / 2];

@@ -1,5 +1,6 @@
 #include "simulator/gas/remap.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "simulator/gas/donor.hpp"
@@ -58,14 +59,26 @@ void mark(Gas& gas, std::size_t block, int axis, int n, std::size_t m, const Lan
   store<D>(gas.marks, block, 0, axis, n, marks);
 }
 
+/// How many of the cells beside a face of a pencil that give are in the box: of rows beyond it nothing counts.
+template <int D>
+std::int64_t count_inside(const Gas& gas, std::size_t block, int axis, int n, std::size_t face, const LanesMask& which) {
+  const int above = std::min(static_cast<int>(face), line - 1), below = static_cast<int>(face) - 1;
+  LanesMask inside = lanes_inside<D>(gas.cells, block, axis, n, above);
+  if (below >= 0) inside |= lanes_inside<D>(gas.cells, block, axis, n, below);
+  std::int64_t count = 0;
+  for (int l = 0; l < 8; ++l) count += which[l] && inside[l] ? 1 : 0;
+  return count;
+}
+
 struct Carried {
   Lanes kinetic;    // J
   Lanes heat_kept;  // part of the heat
+  LanesMask flattened;
 };
 /// Momentum that goes with a mass (positive along the axis) into dp.
 template <int D>
 Carried carry_momentum(const Giving& giving, const std::array<Donor<D>, reach>& donors, const Lanes& mass, std::size_t face,
-                       std::array<Lanes, line_faces> (&dp)[D], std::int64_t& flattened) {
+                       std::array<Lanes, line_faces> (&dp)[D]) {
   const Donor<D>&low = donors[giving.low], &high = donors[giving.high];
   const auto of = [&](const Lanes& of_low, const Lanes& of_high) { return select(giving.up, of_low, of_high); };
   const Lanes part = abs(mass) / of(low.mass, high.mass);
@@ -76,9 +89,7 @@ Carried carry_momentum(const Giving& giving, const std::array<Donor<D>, reach>& 
   }
   const Leaving leaving = leaving_with_momentum(giving.up, part, of(low.density, high.density), steepness,
                                                 of(low.energy, high.energy), giving.order);
-  if (any(leaving.too_steep))
-    for (int l = 0; l < 8; ++l) flattened += leaving.too_steep[l] ? 1 : 0;
-  Carried carried{Lanes(0.0), leaving.heat_kept};
+  Carried carried{Lanes(0.0), leaving.heat_kept, leaving.too_steep};
   for (int a = 0; a < D; ++a) {
     const Lanes u = of(low.velocity[a], high.velocity[a]) + leaving.offset * slopes[a];
     dp[a][face] = mass * u, carried.kinetic += 0.5 * mass * u * u;
@@ -121,7 +132,8 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
       const Giving giving = giving_at(swept[f], room, gas.careful ? &plain : nullptr, f);
       const Lanes leaving = swept[f] * giving.leaving(density);
       dm[f] = leaving;
-      const Carried carried = carry_momentum<D>(giving, donors, leaving, f, dp, result.flattened);
+      const Carried carried = carry_momentum<D>(giving, donors, leaving, f, dp);
+      if (any(carried.flattened)) result.flattened += count_inside<D>(gas, block, axis, n, f, carried.flattened);
       dE[f] = swept[f] * giving.leaving(energy) * carried.heat_kept + carried.kinetic;
     }
     for (std::size_t f = 0; f < line; ++f) {
@@ -219,7 +231,8 @@ SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
         at.dI[f] = select(here, dI, residue * giving.of(at.internal));
         dm_all += at.dm[f], dI_all += at.dI[f];
       }
-      const Carried carried = carry_momentum<D>(giving, donors, dm_all, f, dp, result.flattened);
+      const Carried carried = carry_momentum<D>(giving, donors, dm_all, f, dp);
+      if (any(carried.flattened)) result.flattened += count_inside<D>(gas, block, axis, n, f, carried.flattened);
       dE[f] = dI_all * carried.heat_kept + carried.kinetic;
     }
     for (std::size_t f = 0; f < line; ++f) {

@@ -30,6 +30,7 @@ std::string in_words(const GasBodyBooks& body, const Books& all) {
   std::string text = fmt::format("  {}\n", body.name);
   text += components("force of the gas", unit(Extensive::force, all), body.force);
   text += fmt::format("    {:22}    {:12.6g}\n", "work of the gas [" + unit(Extensive::energy, all) + "]", body.work + 0.0);
+  text += components("its velocity", "m/s", body.velocity);
   text += components("its centre moved", "m", body.displacement);
   if (body.growth != 0.0)
     text +=

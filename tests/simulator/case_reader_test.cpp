@@ -382,6 +382,9 @@ TEST(CaseReader, RefusesBodiesInTheGasThatOverlapOrDoNotShow) {
   EXPECT_GT(0.6e-3 / asked_for, 1.05);
   EXPECT_LT(0.6e-3 / asked_for, 1.5 * 1.05 + 0.01);
   expect(changed(shot, sheet("5.3 mm")), "shot is so thin that the gas does not see it");
+  // What reaches beyond the walls is there once, not twice.
+  const std::string across = "{ box = { lower = [\"15.2 mm\", \"-9 mm\"], upper = [\"15.7 mm\", \"19 mm\"] } }";
+  expect(changed(shot, across), "shot is so thin that the gas does not see it");
 }
 
 TEST(CaseReader, RefusesMotionsThatABodyInTheGasCannotMake) {

@@ -225,6 +225,23 @@ State state_of(const Gas& gas) {
   return state;
 }
 
+/// Lanes beyond the box hold whatever they hold.
+TEST(Cautions, CountCellsOfTheBoxAlone) {
+  const auto flattened = [](int rows) {
+    const auto domain = single_process();
+    Gas gas = set_up::box(Geometry::plane, 0.01, {0, 0, 0}, {40, rows, 0}, {set_up::ideal_gas()}, *domain);
+    fill(
+        gas,
+        [](const Vector&, double) {
+          return Filling{0, 1.2, 1e5, {100.0, 0.0, 0.0}};
+        },
+        *domain);
+    Stepper().steps(gas, 100, *domain);
+    return gas.flattened;
+  };
+  for (const int rows : {4, 5, 8, 10}) EXPECT_EQ(flattened(rows), 0) << rows;
+}
+
 TEST(RejectedStep, ChangesNothing) {
   for (const Problem& problem : closed) {
     const auto domain = single_process();
