@@ -45,7 +45,8 @@ std::string name_of(const Stick& stick) {
 Simulation set_up_stick(const Stick& stick, double cell_size) {
   const auto whole = [&](double x) { return std::ceil(x / cell_size - 1e-9) * cell_size; };
   const bool plane = stick.radius == infinite;
-  const double width = plane ? 8.0 * cell_size : whole(1.6 * stick.radius);
+  // In a box of 1.6 radii the sticks of 6 and 12.5 mm run 0.7 and 0.8 % faster.
+  const double width = plane ? 8.0 * cell_size : whole(3.0 * stick.radius);
   Case c = read_case(data / "cases" / "anfo_rate_stick.toml",
                      {fmt::format("cell_size = {}", cell_size), fmt::format("gas.upper = [{}, {}]", width, whole(stick.length)),
                       fmt::format("gas.fill.1.shape.cylinder.radius = {}", stick.radius),
