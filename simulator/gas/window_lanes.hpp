@@ -16,11 +16,11 @@ inline std::size_t offset(const Window& w, std::size_t axis) {
 inline Lanes at(const Column& column, std::size_t n) {
   return Lanes::load(column.data() + n);
 }
-/// Volumes of eight whole cells.
+/// Volumes of eight whole cells; before and after the window those of its ends.
 inline Lanes whole_volumes(const Cells& cells, const Window& w, std::size_t n) {
   Lanes whole;
   for (int l = 0; l < 8; ++l) {
-    const std::size_t cell = std::min(n + static_cast<std::size_t>(l), w.first + w.cells - 1);
+    const std::size_t cell = std::clamp(n + static_cast<std::size_t>(l), w.first, w.first + w.cells - 1);
     whole.set(l, whole_cell(cells, w.index(cell)[0]).volume);
   }
   return whole;
