@@ -326,7 +326,7 @@ class CaseReader : public KeyReader<CaseReader> {
       const double width = extent.upper[k] - extent.lower[k];
       if (!(width > 0.0)) return in.problem("shape", "it fills nothing: its parts do not meet");
       const double spacing = case_.cell_size / (body.particles_per_direction * samples_per_direction);
-      if (k == 0 && !may_fill(*body.shape, case_.dimensions(), extent, spacing))
+      if (k == 0 && spacing > 0.0 && !may_fill(*body.shape, case_.dimensions(), extent, spacing))
         return in.problem("shape", "it fills nothing: what is taken away leaves no part that could hold a particle");
       if (width < case_.cell_size * (1.0 - round_off))
         return in.problem("shape", fmt::format("along {} it is {} wide, less than one cell of {}", axis_names[k],
@@ -556,6 +556,7 @@ class CaseReader : public KeyReader<CaseReader> {
         const CsvFile csv = CsvFile::load(measure.profile);
         static_cast<void>(csv.numbers("radius", Unit::m)), static_cast<void>(csv.numbers("height", Unit::m));
       } catch (const InputError& error) {
+        in.problem("profile", "its file cannot be used");
         in.add_problems(error.problems());
       }
     }
@@ -579,6 +580,7 @@ class CaseReader : public KeyReader<CaseReader> {
     try {
       static_cast<void>(read_reference(figure));
     } catch (const InputError& error) {
+      in.problem("reference", "its file cannot be used");
       in.add_problems(error.problems());
     }
   }

@@ -6,6 +6,13 @@
 
 namespace brisance::simulator::gas {
 
+/// Whether waves are to pass a side of the box whole, between the gas and a state beyond that is not its own: at such faces the
+/// damping is not cut down at low Mach numbers. What is taken from a wave that leaves comes back as another one, and of a jump
+/// of pressure that runs in any part could.
+constexpr bool passes_waves(EdgeKind kind) {
+  return kind == EdgeKind::inflow || kind == EdgeKind::non_reflecting;
+}
+
 /// Slope of the pressure less its hydrostatic part.
 inline Lanes pressure_slope(const Pencil& p, const Pencil& density, std::size_t c, double half_head) {
   if (half_head == 0.0) return slope(p, c);
@@ -44,7 +51,7 @@ struct FaceWaves {
 /// With the impedance of a shock where the states approach. At low Mach numbers the velocity jump adds no more pressure than
 /// the motion itself would: otherwise slow flow is damped (Dellacherie, J. Comput. Phys. 229 (2010) 978).
 inline FaceWaves face_waves(const FaceSide& L, const FaceSide& R, const Lanes& sound_L, const Lanes& sound_R,
-                            const Lanes& shock, const Lanes& speed, double least_mach) {
+                            const Lanes& shock, const Lanes& speed, const Lanes& least_mach) {
   const Lanes closing = max(Lanes(L.velocity - R.velocity), Lanes(0.0));
   const Lanes stiffening = shock * closing;
   const Lanes Z_L = L.density * (sound_L + stiffening), Z_R = R.density * (sound_R + stiffening);
@@ -57,7 +64,7 @@ inline FaceWaves face_waves(const FaceSide& L, const FaceSide& R, const Lanes& s
   // stays.
   const Lanes waves =
       abs(R.pressure - L.pressure) / max(Lanes(2.0 * (Z_L * Z_R) * sum * abs(R.velocity - L.velocity)), Lanes(1e-300));
-  const Lanes mach = min(max(max(Lanes(speed / slower), Lanes(least_mach)), waves * waves), Lanes(1.0));
+  const Lanes mach = min(max(max(Lanes(speed / slower), least_mach), waves * waves), Lanes(1.0));
   return {Z_L, Z_R, sum, select(shocked, Lanes(1.0), mach)};
 }
 
@@ -66,7 +73,7 @@ struct Star {
 };
 /// Acoustic solution between two states.
 inline Star star(const FaceSide& L, const FaceSide& R, const Lanes& sound_L, const Lanes& sound_R, const Lanes& shock,
-                 const Lanes& speed, double least_mach) {
+                 const Lanes& speed, const Lanes& least_mach) {
   const auto [Z_L, Z_R, sum, damping] = face_waves(L, R, sound_L, sound_R, shock, speed, least_mach);
   // In this order the mirror image of the two sides gives the mirror image of the face, to the last bit.
   return {((Z_L * L.velocity + Z_R * R.velocity) + (L.pressure - R.pressure)) * sum,

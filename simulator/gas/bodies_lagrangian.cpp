@@ -32,6 +32,18 @@ FaceSide face_side(const StepFields& s, const Window& w, const CutCells& step, s
   side.velocity = velocity + towards * slope_of(along) + at(s.half[HalfStep::velocity + axis], n);
   return trusted(side, density, pressure, velocity, plain);
 }
+/// Of the low faces of eight cells along an axis: see passes_waves.
+Lanes least_mach_at(const Gas& gas, std::size_t axis, std::size_t n) {
+  const bool low = passes_waves(gas.edges[2 * axis].kind), high = passes_waves(gas.edges[2 * axis + 1].kind);
+  Lanes least(gas.least_mach);
+  if (!low && !high) return least;
+  const Window& w = gas.bodies.window;
+  for (int l = 0; l < 8; ++l) {
+    const int at_face = w.index(std::min(n + static_cast<std::size_t>(l), w.first + w.cells - 1))[axis];
+    if ((low && at_face == gas.cells.lower[axis]) || (high && at_face == gas.cells.upper[axis])) least.set(l, 1.0);
+  }
+  return least;
+}
 FaceSide chosen(const LanesMask& yes, const FaceSide& a, const FaceSide& b) {
   return {select(yes, a.velocity, b.velocity), select(yes, a.pressure, b.pressure), select(yes, a.density, b.density)};
 }
@@ -103,7 +115,7 @@ void find_faces(Gas& gas, double dt) {
       const Lanes c_L = sound_L;
       sound_L = select(gas_L, sound_L, sound_R), sound_R = select(gas_R, sound_R, c_L);
       const Lanes shock = 1.0 + 0.5 * max(at(s.primitive[Primitive::gruneisen], l), at(s.primitive[Primitive::gruneisen], n));
-      const Star found = star(L, R, sound_L, sound_R, shock, sqrt(max(speed_at(l), speed_at(n))), gas.least_mach);
+      const Star found = star(L, R, sound_L, sound_R, shock, sqrt(max(speed_at(l), speed_at(n))), least_mach_at(gas, a, n));
       // Gas at rest is so to the last bit.
       const LanesMask calm = (L.pressure == R.pressure) & (L.velocity == R.velocity);
       const Lanes velocity = select(calm, L.velocity, found.velocity);

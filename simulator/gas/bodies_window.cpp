@@ -13,6 +13,7 @@ namespace brisance::simulator::gas::unsplit {
 namespace {
 
 namespace eos = equation_of_state;
+
 void make_room(const Gas& gas, StepFields& s, std::size_t length) {
   if (s.volume.size() == length) return;
   const auto D = static_cast<std::size_t>(gas.dimensions());
@@ -178,10 +179,10 @@ void fill_beyond(Gas& gas) {
       for (Column& column : s.content) column[n] = column[source];
       s.plain[n] = s.plain[source];
       s.primitive[Primitive::velocity + a][n] *= sign, s.content[Content::momentum + a][n] *= sign;
-      if (edge.kind == EdgeKind::wall) return;
       // Contents are those of whole cells, which about an axis are the wider the farther out they lie.
       const double wider = whole_cell(cells, cell[0]).volume / whole_cell(cells, from[0]).volume;
       for (Column& column : s.content) column[n] *= wider;
+      if (edge.kind == EdgeKind::wall) return;
       Vector x{};
       for (std::size_t b = 0; b < static_cast<std::size_t>(w.dimensions); ++b) {
         // What lies beyond two sides is as beside the corner: a state beyond one of them need not make sense there.
@@ -203,7 +204,7 @@ void fill_beyond(Gas& gas) {
       const double density = s.primitive[Primitive::density][n];
       for (Column& column : s.primitive) column[n] = part * column[n] + (1.0 - part) * column[source];
       for (Column& column : s.content) column[n] = part * column[n] + (1.0 - part) * wider * column[source];
-      const double of_velocity = part * density / s.primitive[Primitive::density][n];  // momentum is mixed
+      const double of_velocity = part_of_velocity(part, density, s.primitive[Primitive::density][n]);
       for (std::size_t b = 0; b < static_cast<std::size_t>(w.dimensions); ++b)
         s.primitive[Primitive::velocity + b][n] =
             std::lerp(s.primitive[Primitive::velocity + b][source], velocity[b], of_velocity);

@@ -63,11 +63,6 @@ void mix(CellSet& set, const Ghost& g, double part) {
     there = part > 0.0 ? part * there + (1.0 - part) * inside : inside;
   }
 }
-/// Part of the velocity beyond, where of the density there is a part: momentum is mixed, so thin gas at rest beyond does not
-/// hold up what flows into it.
-double part_of_velocity(double part, double density, double mixed_density) {
-  return part == 1.0 ? 1.0 : part * density / mixed_density;
-}
 void mix_primitives(Gas& gas, const Ghost& g, double part) {
   CellSet& set = gas.primitive;
   const std::size_t block = index(g.block);
@@ -98,6 +93,10 @@ double share_of_beyond(EdgeKind kind, double outward_mach) {
   if (kind == EdgeKind::inflow) return 1.0;
   const double mach = std::clamp(outward_mach, 0.0, 1.0);
   return 1.0 - mach * mach;
+}
+
+double part_of_velocity(double part, double density, double mixed_density) {
+  return part == 1.0 ? 1.0 : part * density / mixed_density;
 }
 
 void share_primitives(Gas& gas, double time, Domain& domain) {

@@ -10,6 +10,9 @@ namespace brisance::simulator::gas {
 /// as in the relaxation of outgoing waves (Poinsot & Lele, J. Comput. Phys. 101 (1992) 104), so that no flow that is choked at
 /// the side falls from one state to the other. What is said to flow in is felt whole.
 double share_of_beyond(EdgeKind kind, double outward_mach);
+/// Part of the velocity beyond that is felt where of the state there is a part, from the density beyond and the mixed one
+/// (kg/m^3): momentum is mixed, so thin gas at rest beyond does not hold up what flows into it.
+double part_of_velocity(double part, double density, double mixed_density);
 
 /// After the equilibrium: primitives of halo and ghosts at a time (s).
 void share_primitives(Gas& gas, double time, Domain& domain);

@@ -107,9 +107,8 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>&
     const Star found = face(f, gas.least_mach);
     face_velocity[f] = found.velocity, face_pressure[f] = found.pressure;
   }
-  // What is taken from the waves at a side where they are to leave, comes back as another wave.
   for_each_passage(gas, block, axis, n, [&](const Passage& passage, double, std::uint8_t lanes) {
-    if (gas.edges[static_cast<std::size_t>(passage.side)].kind != EdgeKind::non_reflecting) return;
+    if (!passes_waves(gas.edges[static_cast<std::size_t>(passage.side)].kind)) return;
     const auto f = static_cast<std::size_t>(passage.face);
     const Star found = face(f, 1.0);
     for (int l = 0; l < 8; ++l)

@@ -704,6 +704,14 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
   }
 }
 
+TEST(CaseReader, DoesNotBlameAShapeForAWrongCellSize) {
+  std::string text = bar;
+  text.replace(text.find("0.3175 mm"), 9, "0.3175 s");
+  const std::string problems = problems_of(text);
+  EXPECT_NE(problems.find("cell_size: \"0.3175 s\" is not a length"), std::string::npos) << problems;
+  EXPECT_EQ(problems.find("fills nothing"), std::string::npos) << problems;
+}
+
 TEST(CaseReader, ReportsAllProblemsAtOnce) {
   const std::string text = R"(geometry = "axisymmetric"
 cell_size = -1

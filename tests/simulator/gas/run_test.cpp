@@ -68,16 +68,8 @@ end_time = "2 ms"
 lower = [0, 0]
 upper = [0.4, 0.2]
 [[gas.fluid]]
-name = "gas"
-[gas.fluid.material]
-name = "ideal gas"
-density = 1.2
-density_source = "that of the start"
-[gas.fluid.material.equation_of_state]
-law = "ideal_gas"
-source = "a textbook gas"
-gamma = 1.4
-specific_heat = 718
+name = "air"
+material = "air.toml"
 [[gas.fill]]
 density = 1.2
 pressure = 1e5
