@@ -30,6 +30,12 @@ struct Giving {
   LanesMask of(const std::array<LanesMask, reach>& mask) const { return (up & mask[low]) | ((!up) & mask[high]); }
   /// Mean of a field over what leaves.
   Lanes leaving(const Pencil& field) const { return of(field) + (0.5 * order) * (1.0 - part) * difference(field, part); }
+  /// The same of a field of one fluid.
+  Lanes leaving(const Pencil& field, const Lanes& fourth_order, const Lanes& steepening) const {
+    const Lanes across =
+        difference_across_donor(up, field[low - 1], field[low], field[high], field[high + 1], part, fourth_order, steepening);
+    return of(field) + (0.5 * order) * (1.0 - part) * across;
+  }
   /// The same of a fluid's field: only some cells have it, and what leaves is a part of its own.
   Lanes leaving(const Pencil& field, const std::array<LanesMask, reach>& present, const Lanes& own_part) const {
     const LanesMask low_side = present[low - 1] & present[low] & present[high];
@@ -130,11 +136,15 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
     std::array<Lanes, line_faces> dm, dE, dp[D] = {};
     for (std::size_t f = 0; f < line_faces; ++f) {
       const Giving giving = giving_at(swept[f], room, gas.careful ? &plain : nullptr, f);
-      const Lanes leaving = swept[f] * giving.leaving(density);
+      // A shock steepens itself. Held together like a contact, and with fourth order, it rings.
+      const std::size_t l = giving.low, h = giving.high;
+      const Lanes calm = away_from_shocks(giving.up, energy[l - 1], energy[l], energy[h], energy[h + 1],
+                                          velocity[axis][l] > velocity[axis][h]);
+      const Lanes leaving = swept[f] * giving.leaving(density, calm, Lanes(1.0));
       dm[f] = leaving;
       const Carried carried = carry_momentum<D>(giving, donors, leaving, f, dp);
       if (any(carried.flattened)) result.flattened += count_inside<D>(gas, block, axis, n, f, carried.flattened);
-      dE[f] = swept[f] * giving.leaving(energy) * carried.heat_kept + carried.kinetic;
+      dE[f] = swept[f] * giving.leaving(energy, calm, calm) * carried.heat_kept + carried.kinetic;
     }
     for (std::size_t f = 0; f < line; ++f) {
       const std::size_t c = ring + f;
