@@ -41,7 +41,7 @@ using Square = std::array<StoredPack, 8>;
 /// Where eight numbers stand, counted from some address. Those of neighbours in memory are the end of one pack and the start of
 /// the next: two loads take them, of which each leaves out what is not its own.
 struct alignas(64) Places {
-  std::array<std::int64_t, 8> at;  // of numbers that are no neighbours
+  std::array<std::int64_t, 8> at{};  // of numbers that are no neighbours
   bool neighbours = false;
   std::uint8_t in_first = 0xff;        // bit i: number i stands in the first pack
   std::int64_t first = 0, second = 0;  // where number 0 stands, and where it would if the second pack reached back to it
