@@ -400,6 +400,7 @@ template <class M, class Real>
 void damage(const M& material, Batch<Real>& batch) {
   visit_law(material.damage, [&](const auto& law) {
     for (Point<Real>& p : batch) {
+      if (none(p.plastic_strain_increment > 0.0)) continue;
       State<Real>& s = p.state;
       const Real q = equivalent_stress(p.deviator);
       const Real triaxiality = -p.pressure / max(q, 1e-6 * abs(p.pressure) + 1e-30);

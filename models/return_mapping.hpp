@@ -159,12 +159,13 @@ inline porosity::ChuNeedleman nucleation_of(const std::optional<Porosity>& poros
 }
 
 template <class Law, class Real>
-[[gnu::flatten]] Returned<Real> return_to_surface(const yield::VonMises&, const Law& law, const porosity::ChuNeedleman&,
+[[gnu::flatten]] Returned<Real> return_to_surface(const yield::VonMises&, const Law& any_law, const porosity::ChuNeedleman&,
                                                   const Trial<Real>& trial) {
   // What flowed in the last step most likely flows on, and a solution with an increment far above the tolerance proves that the
   // trial stress is outside the surface. Only the others need to know the surface itself.
   constexpr double evident = 1e-6;
   const Real least = evident * trial.equivalent_stress / max(3.0 * trial.shear_modulus, Real(1e-300));
+  const auto& law = flow_stress::isothermal(any_law, trial.at);
   const auto unknown = detail::elastic(trial, Real(0.0));
   const mask_of<Real> stiff = trial.shear_modulus > 0.0, flowed = stiff & (trial.last_rate > 0.0);
   Returned<Real> result = detail::return_to_matrix_stress(law, trial, flowed, unknown, least);

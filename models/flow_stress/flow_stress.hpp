@@ -68,6 +68,15 @@ Real advance_history(const Law& law, const Arguments<Real>& at, const Real& star
   return max(Real(end) - residual / Real(slope), Real(0.0));
 }
 
+/// A law at the temperature of a step: what only depends on that is computed once, where the law offers it.
+template <class Law, class Real>
+decltype(auto) isothermal(const Law& law, const Arguments<Real>& at) {
+  if constexpr (requires { law.isothermal(at); })
+    return law.isothermal(at);
+  else
+    return (law);
+}
+
 /// Flow stress at the end of a plastic strain increment that `at` describes, and the history it leaves. Laws without
 /// history hand it through.
 template <class Law, class Real>

@@ -26,15 +26,30 @@ struct JohnsonCook {
                  Parameter{"reference_temperature", &JohnsonCook::reference_temperature, Unit::K,
                            "T0, temperature at and below which nothing softens", non_negative}};
 
+  /// The law at one temperature.
   template <class Real>
-  Real operator()(const Arguments<Real>& state) const {
+  struct Isothermal {
+    const JohnsonCook& law;
+    Real softening;  // zero where molten
+
+    template <class Number>
+    Number operator()(const Arguments<Number>& state) const {
+      const auto at = bounded(state, 0.0);
+      const Number hardening = law.A + law.B * pow(at.plastic_strain, law.n);
+      const Number rate = max(at.plastic_strain_rate * (1.0 / law.reference_strain_rate), Number(1.0));
+      return max(hardening * (1.0 + law.C * log(rate)) * Number(softening), Number(0.0));
+    }
+  };
+  template <class Real>
+  Isothermal<Real> isothermal(const Arguments<Real>& state) const {
     const auto at = bounded(state, 0.0);
-    const Real hardening = A + B * pow(at.plastic_strain, n);
-    const Real rate = max(at.plastic_strain_rate * (1.0 / reference_strain_rate), Real(1.0));
     const Real melting_range = max(at.melting_temperature - reference_temperature, Real(1e-6));
     const Real theta = (at.temperature - reference_temperature) / melting_range;
-    const Real softening = 1.0 - pow(clamp(theta, 0.0, 1.0), m);
-    return if_solid(state, hardening * (1.0 + C * log(rate)) * softening);
+    return {*this, if_solid(state, Real(1.0 - pow(clamp(theta, 0.0, 1.0), m)))};
+  }
+  template <class Real>
+  Real operator()(const Arguments<Real>& state) const {
+    return isothermal(state)(state);
   }
 };
 

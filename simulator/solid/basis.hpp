@@ -98,7 +98,8 @@ inline Lanes nearest_node(const Lanes& coordinate, double inverse_cell_size) {
 
 /// The nodes of a block that are nearest to eight points: their indices in the block.
 template <std::size_t D>
-std::array<Lanes, D> nearest_in_block(const std::array<Lanes, D>& position, const BlockPosition& block, double h) {
+[[gnu::always_inline]] inline std::array<Lanes, D> nearest_in_block(const std::array<Lanes, D>& position,
+                                                                    const BlockPosition& block, double h) {
   constexpr int side = Block<D>::side;
   const double inverse_h = 1.0 / h;
   std::array<Lanes, D> index;

@@ -55,7 +55,8 @@ void Bins::move(const Particles& particles, std::span<const std::uint32_t> mover
 }
 
 void tidy(Particles& particles, Bins& bins) {
-  constexpr std::size_t most = 3;  // one in so many
+  // One in so many: to put them in order costs about a step, and those that are not slow down their neighbours.
+  constexpr std::size_t most = 8;
   if (most * bins.strayed < static_cast<std::size_t>(particles.size)) return;
   particles.reorder(bins.order);
   std::iota(bins.order.begin(), bins.order.end(), 0u);

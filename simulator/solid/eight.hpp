@@ -2,6 +2,8 @@
 // Eight particles side by side, taken in the order of a bin, so that what is done to them does not depend on where they stand
 // in memory.
 
+#include <algorithm>
+
 #include "simulator/solid/bins.hpp"
 #include "simulator/solid/packs.hpp"
 
@@ -15,9 +17,14 @@ struct Eight {
 
   explicit Eight(std::uint32_t one) : used(1) { particle.fill(one); }
   Eight(const Bins& bins, std::uint32_t first, std::uint32_t end) : used(static_cast<int>(std::min(end - first, 8u))) {
-    for (std::uint32_t i = 0; i < 8; ++i) particle[i] = bins.order[std::min(first + i, end - 1)];
-    neighbours = true;
-    for (std::uint32_t i = 1; i < 8; ++i) neighbours &= particle[i] == particle[0] + i;
+    const std::uint32_t* in_order = bins.order.data() + first;
+    if (used == 8)
+      std::copy_n(in_order, 8, particle.begin());
+    else
+      for (std::uint32_t i = 0; i < 8; ++i) particle[i] = in_order[std::min(i, end - 1 - first)];
+    std::uint32_t differences = 0;
+    for (std::uint32_t i = 0; i < 8; ++i) differences |= particle[i] ^ (particle[0] + i);
+    neighbours = differences == 0;
   }
   /// The value in the lanes in use, zero beyond.
   Lanes only_used(const Lanes& value) const {
@@ -30,12 +37,15 @@ class Columns {
  public:
   Columns(const ColumnSet& set, const Eight& eight) : Columns(const_cast<ColumnSet&>(set), eight) {}
   Columns(ColumnSet& set, const Eight& eight) : data_(set.chunk(0)) {
-    for (std::size_t i = 0; i < 8; ++i) places_.at[i] = set.offset(eight.particle[i]);
-    if (const auto beyond = eight.particle[0] % chunk_size; eight.neighbours) {
-      places_.neighbours = true;
-      places_.in_first = static_cast<std::uint8_t>(0xff >> beyond);
-      places_.second = beyond == 0 ? places_.at[0] : places_.at[7] - 7;
+    if (!eight.neighbours) {
+      for (std::size_t i = 0; i < 8; ++i) places_.at[i] = set.offset(eight.particle[i]);
+      return;
     }
+    const auto beyond = eight.particle[0] % chunk_size;
+    places_.neighbours = true;
+    places_.in_first = static_cast<std::uint8_t>(0xff >> beyond);
+    places_.first = set.offset(eight.particle[0]);
+    places_.second = beyond == 0 ? places_.first : set.offset(eight.particle[7]) - 7;
   }
   Lanes operator[](int column) const { return gather(data_ + column * chunk_size, places_); }
   void write(int column, const Lanes& values) { scatter(values, data_ + column * chunk_size, places_); }
@@ -51,15 +61,13 @@ struct Wanted {
   int first, count;
 };
 
-/// Asks the memory for columns of the eight particles from a place of the bins' order on, which are neighbours in memory as a
-/// rule.
+/// Asks the memory for columns of the particle at a place of the bins' order. As a rule it is the last of eight neighbours in
+/// memory, of which the others are in the same pack or in the one before, which the eight before have asked for.
 inline void fetch(const Bins& bins, std::size_t place, std::initializer_list<Wanted> wanted) {
-  for (const std::size_t at : {place, place + 7}) {
-    if (at >= bins.order.size()) continue;
-    for (const Wanted& w : wanted) {
-      const double* from = w.set.particle(static_cast<int>(bins.order[at])) + w.first * chunk_size;
-      for (int k = 0; k < w.count; ++k) __builtin_prefetch(from + k * chunk_size);
-    }
+  if (place >= bins.order.size()) return;
+  for (const Wanted& w : wanted) {
+    const double* from = w.set.particle(static_cast<int>(bins.order[place])) + w.first * chunk_size;
+    for (int k = 0; k < w.count; ++k) __builtin_prefetch(from + k * chunk_size);
   }
 }
 
@@ -67,7 +75,7 @@ inline void fetch(const Bins& bins, std::size_t place, std::initializer_list<Wan
 template <class F>
 void for_each_eight(const Bins& bins, const Bin& bin, std::initializer_list<Wanted> wanted, F&& f) {
   for (std::uint32_t first = bin.begin; first < bin.end; first += 8) {
-    fetch(bins, first + 16, wanted);
+    fetch(bins, first + 16 + 7, wanted);
     f(Eight(bins, first, bin.end));
   }
 }

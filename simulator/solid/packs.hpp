@@ -41,39 +41,69 @@ using Square = std::array<StoredPack, 8>;
 /// Where eight numbers stand, counted from some address. Those of neighbours in memory are the end of one pack and the start of
 /// the next: two loads take them, of which each leaves out what is not its own.
 struct alignas(64) Places {
-  std::array<std::int64_t, 8> at;
+  std::array<std::int64_t, 8> at{};  // of numbers that are no neighbours
   bool neighbours = false;
-  std::uint8_t in_first = 0xff;  // bit i: number i stands in the first pack
-  std::int64_t second = 0;       // where number 0 would stand if the second pack reached back to it
+  std::uint8_t in_first = 0xff;        // bit i: number i stands in the first pack
+  std::int64_t first = 0, second = 0;  // where number 0 stands, and where it would if the second pack reached back to it
+
+  std::int64_t place(std::size_t i) const {
+    if (!neighbours) return at[i];
+    return static_cast<std::int64_t>(i) + ((in_first >> i) & 1 ? first : second);
+  }
 };
 inline Lanes gather(const double* from, const Places& places) {
 #if defined(__AVX512F__)
   Lanes r;
   if (places.neighbours) {
     const auto second = static_cast<std::uint8_t>(~places.in_first);
-    r.part[0] = _mm512_maskz_loadu_pd(places.in_first, from + places.at[0]);
+    r.part[0] = _mm512_maskz_loadu_pd(places.in_first, from + places.first);
     r.part[0] = _mm512_mask_loadu_pd(r.part[0], second, from + places.second);
   } else {
     r.part[0] = _mm512_mask_i64gather_pd(simd::Register{}, 0xff, _mm512_load_si512(places.at.data()), from, 8);
   }
   return r;
 #else
-  const auto& at = places.at;
-  return pack(from[at[0]], from[at[1]], from[at[2]], from[at[3]], from[at[4]], from[at[5]], from[at[6]], from[at[7]]);
+  std::array<double, 8> numbers;
+  for (std::size_t i = 0; i < 8; ++i) numbers[i] = from[places.place(i)];
+  return Lanes::load(numbers.data());
 #endif
 }
 /// Where places coincide, the last of the numbers stays.
 inline void scatter(const Lanes& values, double* to, const Places& places) {
 #if defined(__AVX512F__)
   if (places.neighbours) {
-    _mm512_mask_storeu_pd(to + places.at[0], places.in_first, values.part[0]);
+    _mm512_mask_storeu_pd(to + places.first, places.in_first, values.part[0]);
     _mm512_mask_storeu_pd(to + places.second, static_cast<std::uint8_t>(~places.in_first), values.part[0]);
   } else {
     _mm512_i64scatter_pd(to, _mm512_load_si512(places.at.data()), values.part[0], 8);
   }
 #else
-  for (int i = 0; i < 8; ++i) to[places.at[static_cast<std::size_t>(i)]] = values[i];
+  for (std::size_t i = 0; i < 8; ++i) to[places.place(i)] = values[static_cast<int>(i)];
 #endif
+}
+
+// Lanes in two halves of four.
+
+/// The first four of a pack in memory, twice.
+inline Lanes first_half_twice(const Lanes& pack) {
+  Lanes r;
+#if defined(__AVX512F__)
+  r.part[0] = _mm512_maskz_broadcast_f64x4(0xff, _mm256_load_pd(reinterpret_cast<const double*>(&pack)));
+#else
+  constexpr int parts = Lanes::parts / 2;
+  for (int i = 0; i < parts; ++i) r.part[i] = r.part[parts + i] = pack.part[i];
+#endif
+  return r;
+}
+/// The first half of one and the second half of another.
+inline Lanes halves(const Lanes& first, const Lanes& second) {
+  Lanes r = second;
+#if defined(__AVX512F__)
+  r.part[0] = _mm512_mask_blend_pd(0xf0, first.part[0], second.part[0]);
+#else
+  for (int i = 0; i < Lanes::parts / 2; ++i) r.part[i] = first.part[i];
+#endif
+  return r;
 }
 
 /// Element j of row i becomes element i of row j.

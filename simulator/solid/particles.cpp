@@ -1,17 +1,24 @@
 #include "simulator/solid/particles.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "models/state.hpp"
 #include "simulator/parallel.hpp"
 
 namespace brisance::simulator {
 
 void ColumnSet::reorder(std::span<const std::uint32_t> order) {
-  // Column by column: a column of scratch for each thread instead of a second set.
-  parallel_for_blocks(static_cast<std::size_t>(columns_), [&](std::size_t column) {
-    const int c = static_cast<int>(column);
-    std::vector<double> scratch(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) scratch[i] = at(c, static_cast<int>(order[i]));
-    for (std::size_t i = 0; i < order.size(); ++i) at(c, static_cast<int>(i)) = scratch[i];
+  // Eight columns at a time, which stand side by side: scratch for those of each thread instead of a second set.
+  constexpr int at_once = 8;
+  const int groups = (columns_ + at_once - 1) / at_once;
+  parallel_for_blocks(static_cast<std::size_t>(groups), [&](std::size_t group) {
+    const int first = static_cast<int>(group) * at_once, count = std::min(at_once, columns_ - first);
+    std::vector<std::array<double, at_once>> scratch(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (int k = 0; k < count; ++k) scratch[i][static_cast<std::size_t>(k)] = at(first + k, static_cast<int>(order[i]));
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (int k = 0; k < count; ++k) at(first + k, static_cast<int>(i)) = scratch[i][static_cast<std::size_t>(k)];
   });
 }
 

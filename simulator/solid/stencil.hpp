@@ -21,37 +21,57 @@ struct TwoFields {
 template <std::size_t D>
 using Slopes = std::array<std::array<Lanes, 3>, D>;
 
-/// Adds value S + sum_a slope[a]_i to the nodes around particle p of eight.
-template <std::size_t D, class Field>
-[[gnu::always_inline]] inline void scatter_to(const Weights<D>& w, std::size_t p, const Lanes& value, const Slopes<D>& slope,
-                                              const Field& to) {
+/// Adds value S + sum_a slope[a]_i to the nodes around some of eight particles, from p on, which have the same nodes around
+/// them.
+template <std::size_t D, std::size_t count, class Field>
+[[gnu::always_inline]] inline void scatter_to(const Weights<D>& w, std::size_t p, const Square& value,
+                                              const std::array<Slopes<D>, count>& slope, const Field& to) {
   using B = Block<D>;
-  const auto S = [&](std::size_t k, std::size_t a) { return w.along[a].value[k][p]; };
+  const auto S = [&](std::size_t k, std::size_t a, std::size_t n) { return w.along[a].value[k][p + n]; };
   for (int k = 0; k < (D == 3 ? 3 : 1); ++k) {
-    Lanes in_plane = value;
-    double Sz = 1.0;
-    if constexpr (D == 3) {
-      Sz = S(k, 2);
-      in_plane = multiply_add(Sz, value, slope[2][k]);
+    std::array<Lanes, count> in_plane;
+    std::array<double, count> Sz;
+    for (std::size_t n = 0; n < count; ++n) {
+      in_plane[n] = value[p + n], Sz[n] = 1.0;
+      if constexpr (D == 3) {
+        Sz[n] = S(k, 2, n);
+        in_plane[n] = multiply_add(Sz[n], in_plane[n], slope[n][2][k]);
+      }
     }
     for (int j = 0; j < 3; ++j) {
-      const double Sy = S(j, 1), SySz = Sy * Sz;
-      const Lanes in_row = multiply_add(Sy, in_plane, Lanes(Sz) * slope[1][j]);
+      std::array<Lanes, count> in_row;
+      std::array<double, count> SySz;
+      for (std::size_t n = 0; n < count; ++n) {
+        const double Sy = S(j, 1, n);
+        SySz[n] = Sy * Sz[n];
+        in_row[n] = multiply_add(Sy, in_plane[n], Lanes(Sz[n]) * slope[n][1][j]);
+      }
       const int row = w.corner[p] + B::tile_node(0, j, k);
       for (int i = 0; i < 3; ++i) {
         Lanes& node = to.at(i + 3 * (j + 3 * k))[row + i];
-        node = multiply_add(S(i, 0), in_row, multiply_add(SySz, slope[0][i], node));
+        Lanes sum = node;
+        for (std::size_t n = 0; n < count; ++n)
+          sum = multiply_add(S(i, 0, n), in_row[n], multiply_add(SySz[n], slope[n][0][i], sum));
+        node = sum;
       }
     }
   }
 }
-template <std::size_t D>
-[[gnu::always_inline]] inline void scatter(const Weights<D>& w, std::size_t p, const Lanes& value, const Slopes<D>& slope,
-                                           const TwoFields& to) {
-  if (to.second == 0)
-    scatter_to<D>(w, p, value, slope, OneField{to.first});
-  else
-    scatter_to<D>(w, p, value, slope, to);
+/// Adds what eight particles carry to the nodes around those in use: value[p] S + sum_a slope_of(p)[a]_i.
+template <std::size_t D, class SlopeOf, class FieldOf>
+[[gnu::always_inline]] inline void scatter(const Weights<D>& w, std::size_t used, const Square& value, const SlopeOf& slope_of,
+                                           const FieldOf& field_of) {
+  for (std::size_t p = 0; p < used; ++p) {
+    const TwoFields to = field_of(p);
+    if (to.second != 0) {
+      scatter_to<D, 1>(w, p, value, {slope_of(p)}, to);
+    } else if (p + 1 < used && w.corner[p] == w.corner[p + 1] && field_of(p + 1).second == 0) {
+      scatter_to<D, 2>(w, p, value, {slope_of(p), slope_of(p + 1)}, OneField{to.first});  // nodes are read and written once
+      ++p;
+    } else {
+      scatter_to<D, 1>(w, p, value, {slope_of(p)}, OneField{to.first});
+    }
+  }
 }
 
 /// Sums over the nodes with the weights S, and with S along all directions but one, where another weight stands.
@@ -120,5 +140,69 @@ template <Slope kind, bool hoop, std::size_t D, class FieldOf>
   if constexpr (hoop) sums.hoop = transposed(sums.hoop);
   return sums;
 }
+
+/// Gradients of the velocities around particle p of eight: half a pack, in which only the first channels stand, for each
+/// direction. While one half is summed with the weights, the other one is with their slopes along x.
+struct HalfGradients {
+  Lanes y_and_x, z_or_hoop;  // in the first half and in the second; in the first half
+};
+template <bool hoop, std::size_t D, class Field>
+[[gnu::always_inline]] inline HalfGradients gather_gradients_from(const Weights<D>& w, std::size_t p, const Field& from) {
+  using B = Block<D>;
+  const auto S = [&](std::size_t k, std::size_t a) { return w.along[a].value[k][p]; };
+  const auto T = [&](std::size_t k, std::size_t a) { return w.along[a].gradient[k][p]; };
+  const Lanes weights[] = {halves(S(0, 0), T(0, 0)), halves(S(1, 0), T(1, 0)), halves(S(2, 0), T(2, 0))};
+  Lanes all(0.0), all_y(0.0), all_z(0.0);
+  for (int k = 0; k < (D == 3 ? 3 : 1); ++k) {
+    Lanes plane(0.0), plane_y(0.0);
+    for (int j = 0; j < 3; ++j) {
+      const int row = w.corner[p] + B::tile_node(0, j, k);
+      Lanes in_row(0.0), in_row_hoop(0.0);
+      for (int i = 0; i < 3; ++i) {
+        const Lanes node = first_half_twice(from.at(i + 3 * (j + 3 * k))[row + i]);
+        in_row = multiply_add(weights[i], node, in_row);
+        if constexpr (hoop) in_row_hoop = multiply_add(w.hoop[i][p], node, in_row_hoop);
+      }
+      plane = multiply_add(S(j, 1), in_row, plane), plane_y = multiply_add(T(j, 1), in_row, plane_y);
+      if constexpr (hoop) all_z = multiply_add(S(j, 1), in_row_hoop, all_z);
+    }
+    if constexpr (D == 3) {
+      all = multiply_add(S(k, 2), plane, all), all_y = multiply_add(S(k, 2), plane_y, all_y);
+      all_z = multiply_add(T(k, 2), plane, all_z);
+    } else {
+      all = plane, all_y = plane_y;
+    }
+  }
+  return {halves(all_y, all), all_z};
+}
+
+/// Velocity gradients at eight particles, dv_a/dx_b, and v_r/r.
+template <std::size_t D>
+class VelocityGradients {
+ public:
+  template <bool hoop, class FieldOf>
+  [[gnu::always_inline]] static VelocityGradients gather(const Weights<D>& w, const FieldOf& field_of) {
+    VelocityGradients of;
+    for (std::size_t p = 0; p < 8; ++p) {
+      const TwoFields from = field_of(p);
+      const HalfGradients sum = from.second == 0 ? gather_gradients_from<hoop, D>(w, p, OneField{from.first})
+                                                 : gather_gradients_from<hoop, D>(w, p, from);
+      of.y_and_x_[p] = sum.y_and_x;
+      if constexpr (D == 3 || hoop) of.z_or_hoop_[p] = sum.z_or_hoop;
+    }
+    of.y_and_x_ = transposed(of.y_and_x_);
+    if constexpr (D == 3 || hoop) of.z_or_hoop_ = transposed(of.z_or_hoop_);
+    return of;
+  }
+  Lanes operator()(std::size_t a, std::size_t b) const {
+    constexpr std::size_t second_half = 4;
+    if (b == 2) return z_or_hoop_[Channel::velocity + a];
+    return y_and_x_[Channel::velocity + a + (b == 0 ? second_half : 0)];
+  }
+  Lanes hoop() const { return z_or_hoop_[Channel::velocity]; }
+
+ private:
+  Square y_and_x_, z_or_hoop_;
+};
 
 }  // namespace brisance::simulator

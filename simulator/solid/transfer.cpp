@@ -88,19 +88,19 @@ class CellMeans {
   static Cells cells(const std::array<Lanes, D>& nearest) { return node_numbers(nearest, Block<D>::side); }
 
   void add(const Eight& eight, const Cells& cells, const Lanes& volume, const Lanes& value) {
-    const Lanes sum = volume * value;
-    for (int i = 0; i < eight.used; ++i) {
-      const auto cell = static_cast<std::size_t>(cells[static_cast<std::size_t>(i)]);
-      volume_[cell] += volume[i], sum_[cell] += sum[i];
+    const StoredPack of_volume = volume, sum = volume * value;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(eight.used); ++i) {
+      const auto cell = static_cast<std::size_t>(cells[i]);
+      volume_[cell] += of_volume[i], sum_[cell] += sum[i];
     }
   }
   Lanes operator()(const Cells& cells) const {
-    Lanes means;
-    for (int i = 0; i < 8; ++i) {
-      const auto cell = static_cast<std::size_t>(cells[static_cast<std::size_t>(i)]);
-      means.set(i, sum_[cell] / volume_[cell]);
+    StoredPack volume, sum;
+    for (std::size_t i = 0; i < 8; ++i) {
+      const auto cell = static_cast<std::size_t>(cells[i]);
+      volume.element[i] = volume_[cell], sum.element[i] = sum_[cell];
     }
-    return means;
+    return Lanes(sum) / Lanes(volume);
   }
 
  private:
@@ -386,7 +386,7 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry, double dt) {
       value = transposed(value);
       for (Square& along : slope) along = transposed(along);
       const auto to = nodes_of<D>(body, eight, nodes);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(eight.used); ++i) {
+      const auto slopes = [&](std::size_t i) {
         Slopes<D> along;
         for (std::size_t b = 0; b < D; ++b) {
           const Lanes A = momentum_channels * slope[b][i], S = force_channels * slope[b][i];
@@ -397,15 +397,18 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry, double dt) {
           const Lanes f = pack(0.0, 0.0, 0.0, 0.0, hoop_force[i]);
           for (std::size_t k = 0; k < 3; ++k) along[0][k] = multiply_add(w.hoop[k][i], f, along[0][k]);
         }
-        scatter<D>(w, i, value[i], along, to(i));
-      }
+        return along;
+      };
+      scatter<D>(w, static_cast<std::size_t>(eight.used), value, slopes, to);
       if (walls) touch_walls<D>(s, body, eight, x, v, dt, half_width, w, tile.position, to);
     });
     if (force)
       for_each_load<G, basis>(s, body, bin, tile.position,
                               [&](const LoadedPoint& point, const Weights<D>& w, const Eight& one) {
-                                const Lanes value = pack(0.0, 0.0, 0.0, 0.0, point.force[0], point.force[1], point.force[2]);
-                                scatter<D>(w, 0, value, {}, nodes_of<D>(body, one, nodes)(0));
+                                Square value;
+                                value[0] = pack(0.0, 0.0, 0.0, 0.0, point.force[0], point.force[1], point.force[2]);
+                                const auto no_slopes = [&](std::size_t) { return Slopes<D>{}; };
+                                scatter<D>(w, 1, value, no_slopes, nodes_of<D>(body, one, nodes));
                               });
   });
   for (int field = 0; field < s.grid.fields; ++field) fold<D>(s.boundaries, tile.key, s.grid.tile(tile.number, field));
@@ -474,7 +477,7 @@ void list_leavers(const Simulation& s, const Vector& origin, const Eight& eight,
 /// A velocity gradient with respect to places x as one with respect to x + t v(x). Its components as the columns of tensors; an
 /// affine field in the plane has none across it.
 template <int D, std::size_t components>
-std::array<Lanes, components> referred(const std::array<Lanes, components>& l, double t) {
+[[gnu::flatten]] std::array<Lanes, components> referred(const std::array<Lanes, components>& l, double t) {
   Tensor<Lanes> L;
   if constexpr (D == 3) {
     L = {l[0], l[1], l[2], l[3], l[4], l[5], l[6], l[7], l[8]};
@@ -570,12 +573,14 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
           std::array<Square, D> affine_momentum;
           for (Square& along : affine_momentum) along.fill(Lanes(0.0));
           std::array<Lanes, D * D> affine;
-          for (int b = 0; b < D; ++b)
+          for (int b = 0; b < D; ++b) {
+            const Lanes per_spread = aflip ? kept / w.along[b].spread : Lanes(0.0);
             for (int a = 0; a < D; ++a) {
-              const Lanes C = aflip ? kept * Lanes(grid.slope[b][Channel::velocity + a]) / w.along[b].spread : Lanes(0.0);
+              const Lanes C = per_spread * Lanes(grid.slope[b][Channel::velocity + a]);
               affine_momentum[b][Channel::momentum + a] = m * C;
               affine[static_cast<std::size_t>(D * a + b)] = C;
             }
+          }
           // It lasts into the next step, in which the particles are elsewhere.
           affine = referred<D>(affine, step.dt);
           for (int k = 0; k < D * D; ++k) to.write(L::Motion::affine + k, affine[static_cast<std::size_t>(k)]);
@@ -602,12 +607,13 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
             momentum = transposed(momentum);
             for (Square& along : affine_momentum) along = transposed(along);
             const auto nodes = nodes_of<D>(body, eight, remapped);
-            for (std::size_t i = 0; i < static_cast<std::size_t>(eight.used); ++i) {
+            const auto slopes = [&](std::size_t i) {
               Slopes<D> slope;
               for (std::size_t a = 0; a < D; ++a)
                 for (std::size_t k = 0; k < 3; ++k) slope[a][k] = Lanes(w.along[a].lever[k][i]) * affine_momentum[a][i];
-              scatter<D>(w, i, momentum[i], slope, nodes(i));
-            }
+              return slope;
+            };
+            scatter<D>(w, static_cast<std::size_t>(eight.used), momentum, slopes, nodes);
           }
           list_leavers<D>(s, origin_later, eight, x_new, tile.position, moved[number], left[number]);
         });
@@ -649,7 +655,7 @@ double gradients(Simulation& s, const TileView& tile, double later) {
   for_each_share(s, tile, [&](std::size_t, Body& body, const Bin& bin) {
     Particles& ps = body.particles;
     CellMeans<D> rates;
-    found.clear();
+    found.clear(), found.reserve((bin.end - bin.begin + 7) / 8);
     for_each_eight(body.bins, bin,
                    {{ps.motion, L::Motion::position, D},
                     {ps.load, L::Load::mass, 2},
@@ -659,16 +665,15 @@ double gradients(Simulation& s, const TileView& tile, double later) {
                      const Columns load(ps.load, eight);
                      const auto x = on_grid(s.grid, read_vector<D>(Columns(ps.motion, eight), L::Motion::position));
                      const Weights<D> w = find_weights<G, basis>(x, load[L::Load::half_width], tile.position, h);
-                     const GatheredByChannel<D> grid =
-                         gather<Slope::gradient, ring>(w, nodes_of<D>(body, eight, motion.data()));
-                     OfEight of{{}, CellMeans<D>::cells(w.nearest)};
+                     const auto grid = VelocityGradients<D>::template gather<ring>(w, nodes_of<D>(body, eight, motion.data()));
+                     OfEight& of = found.emplace_back();
+                     of.cells = CellMeans<D>::cells(w.nearest);
                      for (std::size_t a = 0; a < D; ++a)
-                       for (std::size_t b = 0; b < D; ++b) of.gradient[D * a + b] = grid.slope[b][Channel::velocity + a];
-                     if constexpr (ring) of.gradient[4] = grid.hoop[Channel::velocity];
+                       for (std::size_t b = 0; b < D; ++b) of.gradient[D * a + b] = grid(a, b);
+                     if constexpr (ring) of.gradient[4] = grid.hoop();
                      if (later != 0.0) of.gradient = referred<D>(of.gradient, later);
                      if (body.locking_cure)
                        rates.add(eight, of.cells, load[L::Load::mass] / load[L::Load::density], trace_of(of.gradient));
-                     found.push_back(of);
                    });
     const OfEight* of = found.data();
     for_each_eight(body.bins, bin, {}, [&](const Eight& eight) {
