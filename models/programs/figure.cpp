@@ -241,7 +241,7 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
     {
       Gnuplot plot("gnuplot");
       if (ending == ".png")
-        plot << fmt::format("set terminal pngcairo enhanced font 'DejaVu Sans,11' size {},{}\n", width, height);
+        plot << fmt::format("set terminal pngcairo enhanced rounded font 'DejaVu Sans,11' size {},{}\n", width, height);
       else
         plot << fmt::format("set terminal svg enhanced font 'DejaVu Sans,11' size {},{} background 'white'\n", width, height);
       plot << "set encoding utf8\nset output " << quoted_text(temporary.string()) << "\n";
