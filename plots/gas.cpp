@@ -10,12 +10,12 @@
 #include <functional>
 #include <iostream>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <tuple>
 
 #include "models/programs/figure.hpp"
 #include "models/programs/files.hpp"
+#include "rays.hpp"
 #include "simulator/gas/fields.hpp"
 #include "simulator/gas/initial_state.hpp"
 #include "simulator/output/line_out.hpp"
@@ -167,61 +167,12 @@ Held held_by_ring(const Simulation& s, double radius) {
 
 // The same flow along many rays ---------------------------------------------------------------------------------------
 
-/// Density in a quadrant or octant, linear between the middles of the cells.
-class Rays {
- public:
-  explicit Rays(const Ran& ran) : h_(ran.config.cell_size), dimensions_(ran.simulation.dimensions()) {
-    const gas::Gas& gas = ran.simulation.gas;
-    for (std::size_t a = 0; a < 3; ++a) cells_[a] = static_cast<int>(a) < dimensions_ ? gas.cells.upper[a] : 1;
-    density_.resize(static_cast<std::size_t>(cells_[0] * cells_[1] * cells_[2]));
-    gas::for_each_cell(gas, [&](const gas::CellPlace& at) {
-      std::array<int, 3> i = gas.cells.index(at.block, at.cell);
-      if (dimensions_ == 2) i[2] = 0;
-      density_[number(i)] = gas.primitive.cell(at.block, gas::Primitive::density, at.cell);
-    });
-  }
-  /// A few degrees from each other.
-  std::vector<Vector> directions() const {
-    const int parts = dimensions_ == 2 ? 24 : 12;
-    std::vector<Vector> result;
-    for (int i = 0; i <= parts; ++i)
-      for (int j = 0; j <= (dimensions_ == 2 ? 0 : parts); ++j) {
-        const double a = 0.5 * std::numbers::pi * i / parts, b = 0.5 * std::numbers::pi * j / parts;
-        result.push_back({std::cos(a) * std::cos(b), std::sin(a) * std::cos(b), std::sin(b)});
-      }
-    return result;
-  }
-  /// Values at so many places along a ray, and at which.
-  void sample(const Vector& direction, double reach, std::vector<double>& place, std::vector<double>& value) const {
-    place.clear(), value.clear();
-    for (double r = 0.0; r < reach; r += 0.1 * h_) place.push_back(r), value.push_back(at(r * direction));
-  }
-
- private:
-  std::size_t number(const std::array<int, 3>& i) const {
-    return static_cast<std::size_t>(i[0] + cells_[0] * (i[1] + cells_[1] * i[2]));
-  }
-  double at(const Vector& x) const {
-    double sum = 0.0;
-    for (int corner = 0; corner < 1 << dimensions_; ++corner) {
-      std::array<int, 3> i{};
-      double weight = 1.0;
-      for (int a = 0; a < dimensions_; ++a) {
-        const auto n = static_cast<std::size_t>(a);
-        const double u = std::max(x[n] / h_ - 0.5, 0.0);
-        const int low = std::min(static_cast<int>(u), cells_[n] - 2), high = corner >> a & 1;
-        i[n] = low + high;
-        weight *= high ? u - low : 1.0 - (u - low);
-      }
-      sum += weight * density_[number(i)];
-    }
-    return sum;
-  }
-  double h_;
-  int dimensions_;
-  std::array<int, 3> cells_{};
-  std::vector<double> density_;
-};
+/// Values at so many places along a ray, and at which.
+void sample(const gas::Rays& rays, const Vector& direction, double reach, std::vector<double>& place,
+            std::vector<double>& value) {
+  place.clear(), value.clear();
+  for (double r = 0.0; r < reach; r += 0.1 * rays.cell_size()) place.push_back(r), value.push_back(rays.density(r * direction));
+}
 
 struct Fronts {
   double mean = 0.0, spread = 0.0;  // spread: largest less smallest over the mean
@@ -229,12 +180,12 @@ struct Fronts {
 };
 /// Radii within a reach at which the density falls through a level, or half-way from its peak to `ahead` without one.
 Fronts fronts(const Ran& ran, double reach, double ahead, std::optional<double> level = {}) {
-  const Rays rays(ran);
-  const std::vector<Vector> directions = rays.directions();
+  const gas::Rays rays(ran.simulation.gas);
+  const std::vector<Vector> directions = rays.directions(rays.dimensions() == 2 ? 24 : 12);
   std::vector<double> radii, place, value;
   Fronts result;
   for (const Vector& direction : directions) {
-    rays.sample(direction, reach, place, value);
+    sample(rays, direction, reach, place, value);
     const double most = peak(value);
     result.peak += most / static_cast<double>(directions.size());
     radii.push_back(front(place, value, level.value_or(0.5 * (most + ahead))));

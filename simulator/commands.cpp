@@ -88,10 +88,10 @@ int run_case(const Options& o) {
   return tell(run(c, s, {directory, std::nullopt}), directory);
 }
 
-Case case_of_run(const Path& directory) {
+Case case_of_run(const Path& directory, const std::vector<std::string>& overrides = {}) {
   if (!std::filesystem::exists(directory / "case.toml"))
     throw std::invalid_argument(fmt::format("{}: is no run: it holds no case.toml", directory.string()));
-  return read_case(directory / "case.toml");
+  return read_case(directory / "case.toml", overrides);
 }
 
 std::optional<double> until_time(const std::string& text) {
@@ -104,12 +104,21 @@ std::optional<double> until_time(const std::string& text) {
   }
 }
 
+/// What would be wrong with a case that lasted so long: it is refused or warned of as `run` does.
+void look_ahead(const Case& c, const Path& directory, double until) {
+  if (until <= c.end_time) return;
+  for (const std::string& warning : set_up_warnings(case_of_run(directory, {fmt::format("end_time={:.17g}", until)})))
+    fmt::print(stderr, "warning: {}\n", warning);
+}
+
 int resume_run(const Options& o) {
   use_threads(o.threads);
   const Case c = case_of_run(o.directory);
+  const std::optional<double> until = until_time(o.until);
+  if (until) look_ahead(c, o.directory, *until);
   Simulation s = set_up_or_refuse(c);
   catch_interrupts();
-  return tell(resume(c, s, {o.directory, until_time(o.until)}), o.directory);
+  return tell(resume(c, s, {o.directory, until}), o.directory);
 }
 
 int report_run(const Options& o) {
@@ -194,6 +203,7 @@ int describe_keys(const std::string& key) {
   std::string suggestion;
   const std::optional<std::string> laws = describe_laws(key, suggestion);
   std::optional<std::string> thing = describe_shape(key);
+  if (!thing) thing = describe_formula(key);
   const std::vector<KeyDescription> found = thing ? std::vector<KeyDescription>{} : find_keys(all_keys(), key);
   if (!thing) thing = describe_material(key);
   if (!thing && found.empty() && !laws) thing = describe_case(key);
@@ -204,6 +214,7 @@ int describe_keys(const std::string& key) {
     for (const LawPage& page : pages) names.push_back(page.name);
     names.insert(names.end(), shape_forms.begin(), shape_forms.end());
     names.insert(names.end(), materials.begin(), materials.end());
+    names.push_back("formula");
     fmt::print(stderr,
                "describe: \"{}\" is no key of a case file, no value of one, no shape, no law and no material that comes with "
                "the program{}\n",

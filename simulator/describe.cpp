@@ -1,6 +1,7 @@
 #include "simulator/describe.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "models/input/material_folders.hpp"
 #include "models/input/material_reader.hpp"
 #include "models/input/table_reader.hpp"
+#include "simulator/formula.hpp"
 #include "simulator/keys.hpp"
 
 namespace brisance::simulator {
@@ -68,6 +70,30 @@ std::optional<std::string> describe_shape(std::string_view form) {
                     "  example: shape = {}\n  in three dimensions every point has three coordinates; in the axisymmetric "
                     "geometry x is the radius\n",
                     example_of_shape(form));
+}
+
+std::optional<std::string> describe_formula(std::string_view name) {
+  if (name != "formula" && name != "formulas") return std::nullopt;
+  std::string text =
+      "formula, a text in the place of a number: what it says changes with place and time, in SI units\n"
+      "  variables\n"
+      "    x, y, z            m, coordinates, as many as the geometry has dimensions; x is the distance from the axis or the\n"
+      "                       centre in the round geometries, and y runs along the axis in the axisymmetric one\n"
+      "    r                  m, distance from the origin\n"
+      "    t                  s, time; of what lies beyond an edge, not of what fills the box at the start\n"
+      "    pi                 3.14159...\n"
+      "  operators            + - * / ^, < > <= >= == !=, && ||, a ? b : c\n";
+  std::vector<std::string> keys;
+  for (const KeyDescription& key : all_keys())
+    if (key.values.find("or a formula") != std::string::npos) keys.push_back(key.path);
+  return text +
+         fmt::format("  functions            {}\n  where it may stand   {}\n", fmt::join(formula_functions(), ", "),
+                     fmt::join(keys, ", ")) +
+         "  A text that is a number with a unit, such as \"1.2 kg/m^3\", is that number.\n"
+         "  example: a wave of sound comes in\n"
+         "    [[gas.edge]]\n    side = \"low_x\"\n    kind = \"inflow\"\n    density = \"1.2 + 0.001*sin(2*pi*1000*t)\"\n"
+         "    pressure = \"1e5 + 118*sin(2*pi*1000*t)\"\n    velocity = [\"0.284*sin(2*pi*1000*t)\"]\n"
+         "  one that changes from place to place: pressure = \"x < 0.5 ? 2e5 : 1e5\"\n";
 }
 
 std::optional<std::string> describe_case(std::string_view name) {

@@ -14,6 +14,9 @@ std::string_view example_of_shape(std::string_view form);
 /// A form of shapes: its keys and an example. Nothing if there is no such form.
 std::optional<std::string> describe_shape(std::string_view form);
 
+/// What formulas may speak of, where they may stand, examples; for "formula".
+std::optional<std::string> describe_formula(std::string_view name);
+
 /// A material that comes with the program, by the name of its file with or without .toml: name, notes, laws, how to use it.
 std::optional<std::string> describe_material(std::string_view name);
 

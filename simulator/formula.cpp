@@ -4,23 +4,60 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <mutex>
 #include <numbers>
 #include <stdexcept>
+#include <thread>
 
 #include "models/input/diagnostics.hpp"
 
 namespace brisance::simulator {
 
-struct Formula::Parser {
+namespace {
+
+/// One of muparser's, with what it reads when it evaluates.
+struct Parser {
   mu::Parser parser;
   Vector position{1.0, 1.0, 1.0};
   double radius = 1.0, time = 1.0;
   std::size_t dimensions = 1;
-  std::mutex in_use;
+
+  /// Throws mu::ParserError, at the first evaluation at the latest.
+  Parser(const std::string& text, int dimensions_, bool with_time) : dimensions(static_cast<std::size_t>(dimensions_)) {
+    std::fill(position.begin() + dimensions_, position.end(), 0.0);
+    parser.DefineConst("pi", std::numbers::pi);
+    for (std::size_t a = 0; a < dimensions; ++a) parser.DefineVar(std::string(1, "xyz"[a]), &position[a]);
+    parser.DefineVar("r", &radius);
+    if (with_time) parser.DefineVar("t", &time);
+    parser.SetExpr(text);
+  }
+  Parser(const Parser&) = delete;  // muparser holds pointers to the members
+};
+
+}  // namespace
+
+/// A parser for each thread that evaluates at the same time as others.
+struct Formula::Parsers {
+  struct alignas(64) Slot {  // a cache line: threads do not wait for each other's
+    std::atomic_flag in_use;
+    std::unique_ptr<Parser> parser;
+  };
+  std::array<Slot, 64> slots;
+
+  /// f(slot) on a slot that is no other thread's meanwhile; a thread finds the same one again unless another has taken it.
+  template <class F>
+  double with_own(F&& f) {
+    std::size_t n = std::hash<std::thread::id>{}(std::this_thread::get_id()) % slots.size();
+    while (slots[n].in_use.test_and_set(std::memory_order_acquire)) n = (n + 1) % slots.size();
+    const double result = f(slots[n]);
+    slots[n].in_use.clear(std::memory_order_release);
+    return result;
+  }
 };
 
 namespace {
@@ -55,31 +92,29 @@ std::vector<std::string_view> formula_names(int dimensions, bool with_time) {
   return names;
 }
 
+std::vector<std::string> formula_functions() {
+  std::vector<std::string> names;
+  const mu::Parser parser;
+  for (const auto& [name, callback] : parser.GetFunDef()) names.push_back(name);
+  return names;
+}
+
 Formula::Formula(std::string text, int dimensions, bool with_time)
-    : text_(std::move(text)), parser_(std::make_unique<Parser>()) {
+    : text_(std::move(text)), dimensions_(dimensions), with_time_(with_time), parsers_(std::make_unique<Parsers>()) {
   const std::vector<std::string_view> names = formula_names(dimensions, with_time);
   const auto fail = [&](const std::string& what, const std::string& hint = "") {
     throw std::invalid_argument(in_quotes(text_) + " is no formula: " + what + "; it may speak of " + listed(names) + hint);
   };
-  mu::Parser& parser = parser_->parser;
-  parser_->dimensions = static_cast<std::size_t>(dimensions);
-  std::fill(parser_->position.begin() + dimensions, parser_->position.end(), 0.0);
   try {
-    parser.DefineConst("pi", std::numbers::pi);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(dimensions); ++a)
-      parser.DefineVar(std::string(1, "xyz"[a]), &parser_->position[a]);
-    parser.DefineVar("r", &parser_->radius);
-    if (with_time) parser.DefineVar("t", &parser_->time);
-    parser.SetExpr(text_);
-    parser.Eval();
-    if (parser.GetNumResults() != 1) fail("it has more than one result");
+    Parser first(text_, dimensions_, with_time_);
+    first.parser.Eval();
+    if (first.parser.GetNumResults() != 1) fail("it has more than one result");
   } catch (const mu::ParserError& error) {
     if (error.GetCode() != mu::ecUNASSIGNABLE_TOKEN) fail(reason(error));
     const std::string token = error.GetToken();
     const auto end = std::find_if(token.begin(), token.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_'; });
     const std::string unknown(token.begin(), end == token.begin() ? token.end() : end);
-    std::vector<std::string> functions;
-    for (const auto& [name, callback] : parser.GetFunDef()) functions.push_back(name);
+    const std::vector<std::string> functions = formula_functions();
     std::vector<std::string_view> known = names;
     known.insert(known.end(), functions.begin(), functions.end());
     fail(in_quotes(unknown) + " is unknown", did_you_mean(unknown, known));
@@ -90,14 +125,17 @@ Formula::Formula(std::string text, int dimensions, bool with_time)
 Formula::~Formula() = default;
 
 double Formula::operator()(const Vector& position, double time) const {
-  const std::lock_guard lock(parser_->in_use);
-  std::copy_n(position.begin(), parser_->dimensions, parser_->position.begin());
-  parser_->radius = magnitude(parser_->position), parser_->time = time;
-  try {
-    return parser_->parser.Eval();
-  } catch (const mu::ParserError&) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+  return parsers_->with_own([&](Parsers::Slot& slot) {
+    try {
+      if (!slot.parser) slot.parser = std::make_unique<Parser>(text_, dimensions_, with_time_);
+      Parser& own = *slot.parser;
+      std::copy_n(position.begin(), own.dimensions, own.position.begin());
+      own.radius = magnitude(own.position), own.time = time;
+      return own.parser.Eval();
+    } catch (const mu::ParserError&) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  });
 }
 
 }  // namespace brisance::simulator

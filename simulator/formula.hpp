@@ -24,17 +24,22 @@ class Formula {
   Formula(std::string text, int dimensions, bool with_time);
   ~Formula();
   const std::string& text() const { return text_; }
-  /// Threads may call it at the same time. Not finite where the formula has no value.
+  /// Threads may call it at the same time, and do not wait for each other. Not finite where the formula has no value.
   double operator()(const Vector& position, double time) const;
 
  private:
-  struct Parser;
+  struct Parsers;
   std::string text_;
-  std::unique_ptr<Parser> parser_;
+  int dimensions_;
+  bool with_time_;
+  std::unique_ptr<Parsers> parsers_;
 };
 
 /// What a formula may speak of: "x, y, r, t and pi".
 std::vector<std::string_view> formula_names(int dimensions, bool with_time);
+
+/// The functions that it may call.
+std::vector<std::string> formula_functions();
 
 /// A number, or a formula that stands in its place.
 struct Varying {

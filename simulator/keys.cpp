@@ -52,7 +52,7 @@ class Describer : public KeyDescriber<Describer> {
     const bool edge = std::is_same_v<Config, EdgeConfig>;
     return std::string(", or a formula in SI units such as ") + (edge ? "\"1 + 0.1*sin(2*pi*t)\"" : "\"1 + exp(-x^2)\"") +
            " in x, y, z, r (distance from the origin)" + (edge ? ", t" : "") +
-           " and pi, with + - * / ^, a ? b : c and functions such as sqrt, exp, ln, sin, cos";
+           " and pi, with + - * / ^, a ? b : c and functions such as sqrt, exp, ln, sin, cos (`brisance describe formula`)";
   }
   template <class K>
   void describe(const std::string& path, const K& key, const std::optional<Varying>&) {

@@ -135,7 +135,9 @@ class Run {
   std::string foreseen_by_now() const {
     std::string text;
     try {
-      for (const gas::ForeseenMeeting& meeting : gas::foreseen_meetings(case_))
+      Case whole = case_;
+      whole.end_time = end_;
+      for (const gas::ForeseenMeeting& meeting : gas::foreseen_meetings(whole))
         if (meeting.time <= s_.time + 2.0 * s_.last_time_step) text += "\n" + in_words(meeting);
     } catch (const std::exception&) {  // it is no more than an explanation
     }

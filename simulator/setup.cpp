@@ -20,6 +20,9 @@
 namespace brisance::simulator {
 namespace {
 
+/// A particle's number is that of its body above that of its site.
+constexpr int site_bits = 48;
+
 /// One sub-cell of the creation lattice: where it is and how full.
 struct Site {
   std::array<int, 3> index;
@@ -51,6 +54,10 @@ struct Lattice {
     return static_cast<std::uint64_t>(i[0]) +
            static_cast<std::uint64_t>(count[0]) *
                (static_cast<std::uint64_t>(i[1]) + static_cast<std::uint64_t>(count[1]) * static_cast<std::uint64_t>(i[2]));
+  }
+  std::array<int, 3> index(std::uint64_t number) const {
+    const auto nx = static_cast<std::uint64_t>(count[0]), ny = static_cast<std::uint64_t>(count[1]);
+    return {static_cast<int>(number % nx), static_cast<int>(number / nx % ny), static_cast<int>(number / nx / ny)};
   }
   bool holds(const std::array<int, 3>& i) const {
     for (std::size_t a = 0; a < 3; ++a)
@@ -174,7 +181,7 @@ Body build(const Case& c, std::size_t number) {
   body.initial_temperature = state.temperature, body.initial_energy = state.energy;
   for (int p = 0; p < ps.size; ++p) {
     const Site& site = sites[static_cast<std::size_t>(p)];
-    const std::uint64_t id = static_cast<std::uint64_t>(number) << 48 | lattice.number(site.index);
+    const std::uint64_t id = static_cast<std::uint64_t>(number) << site_bits | lattice.number(site.index);
     ps.id[static_cast<std::size_t>(p)] = id;
     const auto draw = [&](const std::optional<InitialPorosity>& any_law, RandomProperty property, double& value) {
       if (any_law) std::visit([&](const auto& law) { value = law(uniform(c.numerics.seed, id, property)); }, *any_law);
@@ -269,6 +276,13 @@ Boundary make_boundary(const Case& c, const BoundaryConfig& b) {
 
 Body make_body(const Case& c, std::size_t number) {
   return c.dimensions() == 3 ? build<3>(c, number) : build<2>(c, number);
+}
+
+SubCell sub_cell_of(const Case& c, std::uint64_t id) {
+  const Lattice lattice(c, c.bodies.at(static_cast<std::size_t>(id >> site_bits)));
+  Vector x = lattice.lower(lattice.index(id & ((std::uint64_t{1} << site_bits) - 1)), c.dimensions());
+  for (std::size_t a = 0; a < static_cast<std::size_t>(c.dimensions()); ++a) x[a] += 0.5 * lattice.spacing;
+  return {x, lattice.spacing};
 }
 
 Simulation set_up(const Case& c, std::shared_ptr<Domain> domain) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -60,20 +61,35 @@ Vector mirrored(const Case& c, Vector x) {
   return x;
 }
 
+/// next[n] = the least of row[n + k stride] + k^2, |k| <= reach, as far as there are such rows: one run along x at a time,
+/// which the compiler takes in lanes.
+using Distance = std::uint16_t;
+void relax(const Distance* row, Distance* next, std::ptrdiff_t length, std::ptrdiff_t stride, int before, int after) {
+  std::copy_n(row, length, next);
+  for (int k = -before; k <= after; ++k) {
+    const Distance* other = row + k * stride;
+    const auto square = static_cast<Distance>(k * k);
+    for (std::ptrdiff_t n = 0; n < length; ++n) next[n] = std::min(next[n], static_cast<Distance>(other[n] + square));
+  }
+}
+
 /// Squared distances, in spacings, to the nearest point where `to` holds; those beyond `reach` are at least (reach + 1)^2.
-std::vector<int> squared_distances(const Raster& raster, const std::vector<char>& to, int reach) {
-  const int far = (reach + 1) * (reach + 1);
-  std::vector<int> distance(raster.size()), next(raster.size());
+std::vector<Distance> squared_distances(const Raster& raster, const std::vector<char>& to, int reach) {
+  const auto far = static_cast<Distance>((reach + 1) * (reach + 1));
+  std::vector<Distance> distance(raster.size()), next(raster.size());
   for (std::size_t i = 0; i < to.size(); ++i) distance[i] = to[i] ? 0 : far;
-  for (int axis = 0; axis < raster.dimensions; ++axis) {
-    const std::ptrdiff_t stride = raster.stride(axis);
-    const int count = raster.count[static_cast<std::size_t>(axis)];
-    for (std::size_t i = 0; i < distance.size(); ++i) {
-      const int n = raster.index(i)[static_cast<std::size_t>(axis)];
-      int nearest = far;
-      for (int k = std::max(-reach, -n); k <= std::min(reach, count - 1 - n); ++k)
-        nearest = std::min(nearest, distance[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + k * stride)] + k * k);
-      next[i] = nearest;
+  const auto length = static_cast<std::ptrdiff_t>(raster.count[0]);
+  // Along x a row is its own neighbour, moved; beyond its ends everything is far.
+  std::vector<Distance> padded(static_cast<std::size_t>(length + 2 * reach), far);
+  for (std::size_t row = 0; row < distance.size(); row += static_cast<std::size_t>(length)) {
+    std::copy_n(distance.data() + row, length, padded.data() + reach);
+    relax(padded.data() + reach, distance.data() + row, length, 1, reach, reach);
+  }
+  for (int axis = 1; axis < raster.dimensions; ++axis) {
+    for (std::size_t row = 0; row < distance.size(); row += static_cast<std::size_t>(length)) {
+      const int n = raster.index(row)[static_cast<std::size_t>(axis)];
+      const int after = raster.count[static_cast<std::size_t>(axis)] - 1 - n;
+      relax(distance.data() + row, next.data() + row, length, raster.stride(axis), std::min(reach, n), std::min(reach, after));
     }
     std::swap(distance, next);
   }
@@ -81,7 +97,7 @@ std::vector<int> squared_distances(const Raster& raster, const std::vector<char>
 }
 
 /// Whether no neighbour within the raster has more.
-bool is_largest_around(const Raster& raster, const std::vector<int>& values, std::size_t i) {
+bool is_largest_around(const Raster& raster, const std::vector<Distance>& values, std::size_t i) {
   const std::array<int, 3> n = raster.index(i);
   for (int c = -1; c <= 1; ++c)
     for (int b = -1; b <= 1; ++b)
@@ -108,12 +124,12 @@ std::optional<ThinPart> thinnest_part(const Case& c, const Shape& shape, double 
   std::vector<char> empty(raster.size());
   for (std::size_t i = 0; i < empty.size(); ++i) empty[i] = contains(shape, mirrored(c, raster.point(i))) ? 0 : 1;
   const int radius = static_cast<int>(std::lround(0.5 * least / raster.spacing));
-  const std::vector<int> depth = squared_distances(raster, empty, radius);
+  const std::vector<Distance> depth = squared_distances(raster, empty, radius);
   std::vector<char> wide(raster.size());  // a ball of the least diameter fits around it
   for (std::size_t i = 0; i < wide.size(); ++i) wide[i] = depth[i] >= radius * radius ? 1 : 0;
   // The corner of a box is as far from the ball that touches its faces.
   const int corner = static_cast<int>(std::ceil(std::sqrt(raster.dimensions) * radius)) + 1;
-  const std::vector<int> to_wide = squared_distances(raster, wide, corner);
+  const std::vector<Distance> to_wide = squared_distances(raster, wide, corner);
 
   std::optional<ThinPart> thinnest;
   for (std::size_t i = 0; i < wide.size(); ++i) {

@@ -66,7 +66,8 @@ std::string style_of(const Curve& curve) {
 
 /// A range for values that are the same but for rounding: they are drawn as level, not as noise, and gnuplot complains about a
 /// range without extent. None for others.
-std::optional<std::array<double, 2>> level_range(double low, double high) {
+std::optional<std::array<double, 2>> level_range(const std::array<double, 2>& of_values) {
+  const auto [low, high] = of_values;
   constexpr double rounding = 1e-6, margin = 0.1;
   const double size = std::max(std::abs(low), std::abs(high));
   if (!std::isfinite(size) || high - low > rounding * size) return std::nullopt;
@@ -74,12 +75,11 @@ std::optional<std::array<double, 2>> level_range(double low, double high) {
   return {{low - extent, high + extent}};
 }
 
-template <class ValuesOf>
-std::optional<std::array<double, 2>> level_range(const Panel& panel, ValuesOf&& values_of) {
+std::array<double, 2> extremes(const std::vector<Curve>& curves, std::vector<double> Curve::*values) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Curve& curve : panel.curves)
-    for (const double value : values_of(curve)) low = std::min(low, value), high = std::max(high, value);
-  return level_range(low, high);
+  for (const Curve& curve : curves)
+    for (const double value : curve.*values) low = std::min(low, value), high = std::max(high, value);
+  return {low, high};
 }
 
 /// As gnuplot understands it; its own choice if there is none.
@@ -102,6 +102,39 @@ std::string tic_step(const Panel& panel) {
   return fmt::format("{:g}", 10.0 * decade);
 }
 
+/// Whether it is polygons with values.
+bool is_shaded(const Curve& curve) {
+  return curve.mark == Mark::area && !curve.values.empty();
+}
+
+/// Polygons with values as areas of one colour each, as many as the eye can tell apart, and a place on the scale of colours for
+/// each of them. gnuplot's areas have a colour of their own, not one from the data.
+struct Shade {
+  Curve areas;
+  double on_scale;  // 0 to 1
+};
+constexpr std::size_t shades = 128;
+std::vector<Shade> in_shades(const Curve& polygons, const std::array<double, 2>& scale) {
+  std::vector<Shade> all(shades);
+  for (std::size_t k = 0; k < shades; ++k) all[k].on_scale = (static_cast<double>(k) + 0.5) / shades;
+  std::size_t polygon = 0;
+  for (std::size_t i = 0; i < polygons.x.size(); ++i) {
+    const double place = shades * (polygons.values.at(polygon) - scale[0]) / (scale[1] - scale[0]);
+    const auto shade = place > 0.0 ? static_cast<std::size_t>(std::min(place, shades - 1.0)) : 0;
+    all[shade].areas.x.push_back(polygons.x[i]), all[shade].areas.y.push_back(polygons.y[i]);
+    if (std::isnan(polygons.x[i])) ++polygon;
+  }
+  std::erase_if(all, [](const Shade& shade) { return shade.areas.x.empty(); });
+  return all;
+}
+
+/// With a border, so that nothing shines through between two polygons.
+std::string style_of(const Shade& shade) {
+  return fmt::format(
+      "using 1:2 with filledcurves closed lw 3 fc palette frac {0:.5f} fs solid 1.0 border lc palette frac {0:.5f}",
+      shade.on_scale);
+}
+
 /// An empty line ends a polygon.
 void send_polygons(Gnuplot& plot, const Curve& curve) {
   for (std::size_t i = 0; i < curve.x.size(); ++i)
@@ -112,14 +145,18 @@ void send_polygons(Gnuplot& plot, const Curve& curve) {
 void draw_panel(Gnuplot& plot, const Panel& panel) {
   plot << "set title " << plain(panel.title) << " font ',12'\n";
   plot << "set xlabel " << quoted_text(panel.x_label) << "\nset ylabel " << quoted_text(panel.y_label) << "\n";
-  const auto height =
-      panel.logarithmic_y || panel.y_range ? panel.y_range : level_range(panel, [](const Curve& c) { return c.y; });
+  const auto height = panel.logarithmic_y || panel.y_range ? panel.y_range : level_range(extremes(panel.curves, &Curve::y));
   plot << "set xrange " << range(panel.x_range) << "\nset yrange " << range(height) << "\n";
   plot << (panel.logarithmic_x ? "set logscale x\nset format x '10^{%L}'\n" : "unset logscale x\nset format x '%g'\n");
   plot << (panel.logarithmic_y ? "set logscale y\n" : "unset logscale y\n");
   plot << fmt::format("set xtics {} font ',10'\n", tic_step(panel));
   plot << (panel.equal_axes ? "set size ratio -1\n" : "set size noratio\n");
-  plot << "set cbrange " << range(level_range(panel, [](const Curve& c) { return c.values; })) << "\n";
+  const bool shaded = std::any_of(panel.curves.begin(), panel.curves.end(), is_shaded);
+  const std::array<double, 2> values = extremes(panel.curves, &Curve::values);
+  std::optional<std::array<double, 2>> colours = level_range(values);
+  if (shaded && !colours)  // shades need to know it
+    colours = std::isfinite(values[0]) && std::isfinite(values[1]) ? values : std::array{0.0, 1.0};
+  plot << "set cbrange " << range(colours) << "\n";
   if (!panel.scale_label.empty())
     plot << "set cblabel " << quoted_text(panel.scale_label)
          << "\nset palette defined (0 '#440154', 1 '#414487', 2 '#2a788e', 3 '#22a884', 4 '#7ad151', 5 '#fde725')\n";
@@ -131,16 +168,25 @@ void draw_panel(Gnuplot& plot, const Panel& panel) {
   plot << (legend ? "set key default " + panel.legend + apart + " samplen 2.2 spacing 1.1 font ',10'\n" : "unset key\n");
   plot << "plot ";
   bool first = true;
+  const auto announce = [&](const std::string& style, const std::string& title) {
+    plot << (first ? "" : ", ") << "'-' " << style << (title.empty() ? std::string(" notitle") : " title " + plain(title));
+    first = false;
+  };
   for (const Curve& curve : panel.curves) {
     if (curve.x.empty()) continue;
-    plot << (first ? "" : ", ") << "'-' " << style_of(curve)
-         << (curve.title.empty() ? std::string(" notitle") : " title " + plain(curve.title));
-    first = false;
+    if (!is_shaded(curve))
+      announce(style_of(curve), curve.title);
+    else
+      for (const Shade& shade : in_shades(curve, *colours)) announce(style_of(shade), "");
   }
   if (first) plot << "NaN notitle";
   plot << "\n";
   for (const Curve& curve : panel.curves) {
     if (curve.x.empty()) continue;
+    if (is_shaded(curve)) {
+      for (const Shade& shade : in_shades(curve, *colours)) send_polygons(plot, shade.areas);
+      continue;
+    }
     const auto rows = [&](const auto&... columns) {
       std::vector<std::tuple<std::remove_cvref_t<decltype(columns[0])>...>> points;
       for (std::size_t i = 0; i < curve.x.size(); ++i) points.emplace_back(columns[i]...);
@@ -187,17 +233,20 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
   }
   constexpr int title_height = 34;
   const int width = columns * figure.panel_width;
+  constexpr double largest_font = 13.0, smallest_font = 8.0, width_of_letter = 0.69;  // on average, of the font's size
+  const double title_font =
+      std::clamp(width / (width_of_letter * static_cast<double>(figure.title.size())), smallest_font, largest_font);
   const double height = std::ceil(std::accumulate(row_heights.begin(), row_heights.end(), 0.0) + title_height);
   replace_file(path, [&](const std::filesystem::path& temporary) {
     {
       Gnuplot plot("gnuplot");
       if (ending == ".png")
-        plot << fmt::format("set terminal pngcairo enhanced font 'DejaVu Sans,11' size {},{}\n", width, height);
+        plot << fmt::format("set terminal pngcairo enhanced rounded font 'DejaVu Sans,11' size {},{}\n", width, height);
       else
         plot << fmt::format("set terminal svg enhanced font 'DejaVu Sans,11' size {},{} background 'white'\n", width, height);
       plot << "set encoding utf8\nset output " << quoted_text(temporary.string()) << "\n";
       plot << "set border 3 lw 1.2\nset tics nomirror out scale 0.6 font ',10'\nset grid lc rgb '#e4e4e4' lw 0.6\n";
-      plot << fmt::format("set multiplot title {} font ',13'\n", plain(figure.title));
+      plot << fmt::format("set multiplot title {} font ',{:.3g}'\n", plain(figure.title), title_font);
       for (std::size_t i = 0; i < cells.size(); ++i) {
         const auto row = row_heights.begin() + cells[i].row;
         const double above = std::accumulate(row_heights.begin(), row + 1, static_cast<double>(title_height));

@@ -22,7 +22,7 @@ struct Curve {
   std::vector<double> x, y;
   Mark mark = Mark::line;
   int colour = 0;                                     // index into the palette
-  std::vector<double> values{};                       // of points: shown by colours on a scale instead
+  std::vector<double> values{};                       // of points, or of polygons: shown by colours on a scale instead
   double size = 0.7;                                  // of points
   std::vector<double> half_widths{}, half_heights{};  // of tiles with values instead of points, in units of the axes
 };

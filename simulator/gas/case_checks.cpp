@@ -173,13 +173,12 @@ bool is_zero(const VaryingVector& velocity) {
   return !velocity.varies() && velocity.numbers() == Vector{};
 }
 
-/// Reports the first place of some, in the middles of a lattice of cells, where a formula makes no state at the start. Of very
-/// many cells it looks at some alone.
-void check_formulas_at(TableReader& in, const GasStateConfig& state, const Case& c, std::array<double, 3> first,
-                       std::array<double, 3> last, const Shape* shape) {
+/// Reports the first place of some, in the middles of a lattice of cells, where a formula makes no state at a time (s). Of very
+/// many cells it looks at some alone. Returns whether there is one.
+bool check_formulas_at(TableReader& in, const GasStateConfig& state, const Case& c, std::array<double, 3> first,
+                       std::array<double, 3> last, const Shape* shape, double time = 0.0, double most_places = 1e5) {
   std::optional<Fluid> fluid;
   if (const FluidConfig* given = find_fluid(c, state.fluid)) fluid = {given->name, given->material.material.equation_of_state};
-  constexpr double most_places = 1e5;
   std::array<double, 3> step{1.0, 1.0, 1.0};  // cells; no number of cells is too large for them
   const double dimensions = c.dimensions();
   for (std::size_t a = 0; a < dimensions_of(c); ++a)
@@ -192,11 +191,13 @@ void check_formulas_at(TableReader& in, const GasStateConfig& state, const Case&
         for (std::size_t a = 0; a < dimensions_of(c); ++a) x[a] = (index[a] + 0.5) * c.cell_size;
         if (shape && !contains(*shape, x)) continue;
         try {
-          static_cast<void>(state_at(state, 0, fluid ? &*fluid : nullptr, x, 0.0, c.dimensions()));
+          static_cast<void>(state_at(state, 0, fluid ? &*fluid : nullptr, x, time, c.dimensions()));
         } catch (const FormulaError& error) {
-          return in.problem(error.key, error.what());
+          in.problem(error.key, error.what());
+          return true;
         }
       }
+  return false;
 }
 /// The cells of the box; what is wrong with it is reported elsewhere.
 bool find_cells(const Case& c, std::array<double, 3>& first, std::array<double, 3>& last) {
@@ -221,7 +222,12 @@ void check_formulas(TableReader& in, const EdgeConfig& edge, const Case& c) {
     last[axis] = first[axis], first[axis] -= cells;
   else
     first[axis] = last[axis], last[axis] += cells;
-  check_formulas_at(in, edge, c, first, last, nullptr);
+  if (check_formulas_at(in, edge, c, first, last, nullptr)) return;
+  // A formula that is fine at these times may still fail between them, and ends the run then.
+  constexpr int times = 100;
+  constexpr double places = 1000.0;  // so that all of it takes a part of a second
+  for (int n = 1; n <= times; ++n)
+    if (check_formulas_at(in, edge, c, first, last, nullptr, c.end_time * n / times, places)) return;
 }
 
 }  // namespace

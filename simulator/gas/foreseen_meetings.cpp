@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "simulator/gas/bodies.hpp"
 #include "simulator/gas/bodies_setup.hpp"
+#include "simulator/solid/shapes.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -69,6 +73,161 @@ class Wall {
   std::optional<ForeseenMeeting> found_;
 };
 
+bool has_motion(const BodyMotion& motion) {
+  return motion.velocity || motion.rotation || motion.radial_velocity;
+}
+
+/// Points in the squares or cubes of a lattice, to find those near a place.
+class Neighbours {
+ public:
+  Neighbours(const std::vector<Vector>& points, double width) : points_(points), width_(width) {
+    for (std::size_t p = 0; p < points.size(); ++p) places_.emplace_back(place_of(points[p]), p);
+    std::sort(places_.begin(), places_.end());
+  }
+  /// Distance to the nearest point; infinite where none is within the width of the lattice.
+  double nearest(const Vector& x) const {
+    const auto [kz, ky, kx] = place_of(x);
+    double least = width_ * width_;
+    bool found = false;
+    for (std::int64_t k = kz - 1; k <= kz + 1; ++k)
+      for (std::int64_t j = ky - 1; j <= ky + 1; ++j)
+        for (auto at = std::lower_bound(places_.begin(), places_.end(), std::pair{Place{k, j, kx - 1}, std::size_t{0}});
+             at != places_.end() && at->first <= Place{k, j, kx + 1}; ++at) {
+          const Vector apart = points_[at->second] - x;
+          if (dot(apart, apart) <= least) least = dot(apart, apart), found = true;
+        }
+    return found ? std::sqrt(least) : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  using Place = std::array<std::int64_t, 3>;  // z, y, x
+  Place place_of(const Vector& x) const {
+    const auto index = [&](double at) { return static_cast<std::int64_t>(std::floor(at / width_)); };
+    return {index(x[2]), index(x[1]), index(x[0])};
+  }
+  const std::vector<Vector>& points_;
+  double width_;
+  std::vector<std::pair<Place, std::size_t>> places_;
+};
+
+/// A body with the particles alone that lie at its surface: those that lack a neighbour.
+MovingBody surface_of(const Case& c, const GasBodyConfig& config) {
+  MovingBody body = make_body(c, config);
+  const double width = c.cell_size / config.particles_per_direction;
+  std::vector<Vector> surface;
+  {
+    const Neighbours all(body.places, width);
+    constexpr double close = 0.25;  // of the width: of the place where a neighbour would be
+    const auto lacks = [&](const Vector& x) {
+      for (std::size_t a = 0; a < static_cast<std::size_t>(c.dimensions()); ++a)
+        for (const double side : {-1.0, 1.0}) {
+          Vector there = x;
+          there[a] += side * width;
+          if (all.nearest(there) > close * width) return true;
+        }
+      return false;
+    };
+    std::copy_if(body.places.begin(), body.places.end(), std::back_inserter(surface), lacks);
+  }
+  body.places = std::move(surface);
+  return body;
+}
+
+/// Two bodies, of which one at least moves as prescribed, seen from time to time.
+class Approach {
+ public:
+  Approach(std::size_t first, std::size_t second, double width) : bodies(first, second), width_(width) {}
+
+  void look(const std::vector<Vector>& one, const std::vector<Vector>& other, double time) {
+    if (touches_ || touched_at_start_) return;
+    const double distance = distance_of(one, other);
+    // Particles of bodies that lie flush are a width apart; those of bodies that overlap come closer, wherever they lie.
+    constexpr double flush = 1.0 - 1e-6, overlapping = 0.75;
+    if (distance >= flush * width_) {
+      apart_ = time;
+      return;
+    }
+    if (!apart_)
+      touched_at_start_ = true;  // bodies that are built into each other may slide
+    else if (distance < overlapping * width_)
+      touches_ = true;
+  }
+  /// s, when they were apart for the last time; nothing if they never met.
+  std::optional<double> time() const { return touches_ ? apart_ : std::nullopt; }
+
+  std::pair<std::size_t, std::size_t> bodies;
+
+ private:
+  double distance_of(const std::vector<Vector>& one, const std::vector<Vector>& other) const {
+    const auto box_of = [](const std::vector<Vector>& points) {
+      Bounds box{points.front(), points.front()};
+      for (const Vector& x : points)
+        for (std::size_t a = 0; a < 3; ++a)
+          box.lower[a] = std::min(box.lower[a], x[a]), box.upper[a] = std::max(box.upper[a], x[a]);
+      return box;
+    };
+    const auto near = [&](const std::vector<Vector>& points, const Bounds& box) {
+      std::vector<Vector> kept;
+      std::copy_if(points.begin(), points.end(), std::back_inserter(kept), [&](const Vector& x) {
+        for (std::size_t a = 0; a < 3; ++a)
+          if (x[a] < box.lower[a] - width_ || x[a] > box.upper[a] + width_) return false;
+        return true;
+      });
+      return kept;
+    };
+    double least = std::numeric_limits<double>::infinity();
+    if (one.empty() || other.empty()) return least;
+    const std::vector<Vector> of_one = near(one, box_of(other)), of_other = near(other, box_of(one));
+    const Neighbours neighbours(of_one, width_);
+    for (const Vector& x : of_other) least = std::min(least, neighbours.nearest(x));
+    return least;
+  }
+
+  double width_;  // m, of the particles
+  bool touches_ = false, touched_at_start_ = false;
+  std::optional<double> apart_;
+};
+
+/// The bodies that meet each other within the box.
+void foresee_bodies_that_meet(const Case& c, std::vector<ForeseenMeeting>& meetings) {
+  const std::vector<GasBodyConfig>& configs = c.gas->bodies;
+  std::vector<MovingBody> bodies;
+  std::size_t particles = 1;
+  for (const GasBodyConfig& config : configs) {
+    bodies.push_back(surface_of(c, config));
+    particles += bodies.back().places.size();
+  }
+  std::vector<Approach> approaches;
+  for (std::size_t n = 0; n < bodies.size(); ++n)
+    for (std::size_t m = 0; m < n; ++m) {
+      const bool known = bodies[n].mass == 0.0 && bodies[m].mass == 0.0;
+      const double width = c.cell_size / std::min(configs[n].particles_per_direction, configs[m].particles_per_direction);
+      if (known && (has_motion(bodies[n].motion) || has_motion(bodies[m].motion))) approaches.emplace_back(m, n, width);
+    }
+  if (approaches.empty()) return;
+  constexpr double most_particles = 2e6;  // a part of a second
+  const int looks = static_cast<int>(std::clamp(most_particles / static_cast<double>(particles), 50.0, 400.0));
+  for (int n = 0; n <= looks; ++n) {
+    std::vector<std::vector<Vector>> points;
+    for (MovingBody& body : bodies) {
+      const double step = c.end_time / looks;
+      if (n > 0 && body.mass == 0.0) body.state = moved(body, (n - 1) * step, step);
+      points.push_back(points_of(body, c.geometry, body.state, body.state, 0.0).position);
+      std::erase_if(points.back(), [&](const Vector& x) {
+        for (std::size_t a = 0; a < static_cast<std::size_t>(c.dimensions()); ++a)
+          if (x[a] < c.gas->lower[a] || x[a] > c.gas->upper[a]) return true;
+        return false;
+      });
+    }
+    for (Approach& approach : approaches)
+      approach.look(points[approach.bodies.first], points[approach.bodies.second], c.end_time * n / looks);
+  }
+  for (const Approach& approach : approaches)
+    if (const auto time = approach.time())
+      meetings.push_back({configs[approach.bodies.first].name, configs[approach.bodies.second].name,
+                          ForeseenMeeting::Kind::runs_into_body, *time, 0.0});
+}
+
 }  // namespace
 
 std::vector<ForeseenMeeting> foreseen_meetings(const Case& c) {
@@ -77,7 +236,7 @@ std::vector<ForeseenMeeting> foreseen_meetings(const Case& c) {
   for (const GasBodyConfig& config : c.gas->bodies) {
     MovingBody body = make_body(c, config);
     const BodyMotion& motion = body.motion;
-    if (body.mass > 0.0 || (!motion.velocity && !motion.rotation && !motion.radial_velocity)) continue;
+    if (body.mass > 0.0 || !has_motion(motion)) continue;
     constexpr double most_places = 5e6;  // a part of a second
     const int looks = static_cast<int>(std::clamp(most_places / static_cast<double>(body.places.size()), 50.0, 400.0));
     const double half_width = 0.5 * c.cell_size / config.particles_per_direction;
@@ -101,6 +260,7 @@ std::vector<ForeseenMeeting> foreseen_meetings(const Case& c) {
         meetings.back().missing += c.cell_size;
       }
   }
+  foresee_bodies_that_meet(c, meetings);
   return meetings;
 }
 
@@ -117,6 +277,11 @@ std::string in_words(const ForeseenMeeting& m) {
           "{}: at {:.4g} s it lets go of the wall {}, and there is no gas that could fill the room behind it: the run ends "
           "soon after; let the body reach {:.4g} m farther beyond the wall at the start",
           m.body, m.time, m.side, m.missing);
+    case Kind::runs_into_body:
+      return fmt::format(
+          "{} and {}: from {:.4g} s on they run into each other, and the gas between them has nowhere to go: the run ends "
+          "about there; end it before that (end_time), or let one of them stop (amplitude)",
+          m.body, m.side, m.time);
   }
   return {};
 }

@@ -1,5 +1,6 @@
 #pragma once
-// What bodies with a prescribed motion will do at the walls of the box that ends a run: known before it begins.
+// What bodies with a prescribed motion will do at the walls of the box, or to each other, that ends a run: known before it
+// begins.
 
 #include <cstddef>
 #include <string>
@@ -11,17 +12,18 @@ namespace brisance::simulator::gas {
 
 struct ForeseenMeeting {
   enum class Kind {
-    runs_into_wall,  // comes within half a cell of it: the gas between has nowhere to go
-    lets_go_of_wall  // was at the wall and moves off: there is no gas that could widen into the room behind it
+    runs_into_wall,   // comes within half a cell of it: the gas between has nowhere to go
+    lets_go_of_wall,  // was at the wall and moves off: there is no gas that could widen into the room behind it
+    runs_into_body    // meets another body within the box; not if they touch at the start
   };
-  std::string body, side;  // by their names in the case
+  std::string body, side;  // by their names in the case; `side` is the other body, where one runs into it
   Kind kind;
   double time;     // s
   double missing;  // m, by which a body that lets go of a wall should reach farther beyond it, to the end of the case
 };
 
-/// In the order of bodies and sides; looks at the motion up to the end of the case. Bodies that the gas drives are in none:
-/// where they go is not known. Empty without gas.
+/// In the order of bodies and sides, then of pairs of bodies; looks at the motion up to the end of the case. Bodies that the
+/// gas drives are in none: where they go is not known. Empty without gas.
 std::vector<ForeseenMeeting> foreseen_meetings(const Case& c);
 
 /// What happens and what to do.

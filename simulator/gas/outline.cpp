@@ -26,6 +26,13 @@ void add_triangle(Outline& outline, const std::array<Corner, 3>& corners) {
   if (crossings.size() == 2) outline.contour.push_back({crossings[0], crossings[1]});
 }
 
+/// Adds the part of a face of the box that a body lies against.
+void add_at_side(Outline& outline, const Corner& from, const Corner& to) {
+  if (from.depth < 0.0 && to.depth < 0.0) return;
+  const auto surface = [&] { return from.place + from.depth / (from.depth - to.depth) * (to.place - from.place); };
+  outline.contour.push_back({from.depth < 0.0 ? surface() : from.place, to.depth < 0.0 ? surface() : to.place});
+}
+
 }  // namespace
 
 Outline outline_of(const Gas& gas, int layer) {
@@ -53,6 +60,11 @@ Outline outline_of(const Gas& gas, int layer) {
       Corner centre{};
       for (const Corner& x : around) centre.place = centre.place + 0.25 * x.place, centre.depth += 0.25 * x.depth;
       for (std::size_t n = 0; n < 4; ++n) add_triangle(outline, {around[n], around[(n + 1) % 4], centre});
+      const bool axis = is_round(cells.geometry) && cells.lower[0] == 0;
+      const bool at_side[] = {j == cells.lower[1], i + 1 == cells.upper[0], j + 1 == cells.upper[1],
+                              i == cells.lower[0] && !axis};
+      for (std::size_t n = 0; n < 4; ++n)
+        if (at_side[n]) add_at_side(outline, around[n], around[(n + 1) % 4]);
     }
   }
   return outline;

@@ -9,8 +9,9 @@
 namespace brisance::simulator::gas {
 
 struct Outline {
-  std::vector<std::vector<Vector>> solid;      // m, polygons: what the bodies fill of each cell
-  std::vector<std::array<Vector, 2>> contour;  // m, pieces of the surface
+  std::vector<std::vector<Vector>> solid;  // m, polygons: what the bodies fill of each cell
+  /// m, pieces of the surface, and of the sides of the box that the bodies reach through; not of the axis.
+  std::vector<std::array<Vector, 2>> contour;
 };
 
 /// In the plane of x and y of a gas in two dimensions, or halfway through the layer of cells `layer` along z, within the box.

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "models/input/csv.hpp"
@@ -18,6 +19,7 @@
 #include "simulator/output/gauge_history.hpp"
 #include "simulator/output/line_out.hpp"
 #include "simulator/output/measures.hpp"
+#include "simulator/output/particle_cells.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -290,42 +292,53 @@ struct Window {
   double height() const { return upper[1] - lower[1]; }
 };
 
+/// How many pixels the sides of a picture that shows so many metres have: equal axes, unless one would be too short to see.
+struct Pixels {
+  double width, height;
+};
+Pixels pixels_of(double width, double height) {
+  constexpr double largest_side = 820.0, smallest_side = 240.0;
+  const double per_metre = largest_side / std::max(width, height);
+  return {std::max(smallest_side, per_metre * width), std::max(smallest_side, per_metre * height)};
+}
+
 /// A panel that shows the window on a figure of a sensible shape: with equal axes, unless one direction would be too thin to
 /// see. Returns how many units of the axes make a metre.
 Scale fit(Figure& figure, const Window& w, double margin) {
   Panel& panel = figure.panels.front();
   const double width = w.width() + 2.0 * margin, height = w.height() + 2.0 * margin;
-  constexpr double largest_side = 820.0, smallest_side = 240.0, thinnest = 0.2;
+  constexpr double thinnest = 0.2;
   panel.equal_axes = std::min(width, height) > thinnest * std::max(width, height);
   const Scale scale =
       scale_for("m", std::max({std::abs(w.lower[0]), std::abs(w.upper[0]), std::abs(w.lower[1]), std::abs(w.upper[1])}));
   panel.x_range = {{scale.per_si * (w.lower[0] - margin), scale.per_si * (w.upper[0] + margin)}};
   panel.y_range = {{scale.per_si * (w.lower[1] - margin), scale.per_si * (w.upper[1] + margin)}};
-  const double pixels_per_metre = largest_side / std::max(width, height);
-  const auto pixels = [&](double size) { return static_cast<int>(std::max(smallest_side, pixels_per_metre * size)); };
-  figure.panel_width = pixels(width) + 190;  // colours and labels
-  figure.panel_height = pixels(height) + 90;
+  const Pixels pixels = pixels_of(width, height);
+  figure.panel_width = static_cast<int>(pixels.width) + 190;  // colours and labels
+  figure.panel_height = static_cast<int>(pixels.height) + 90;
   panel.x_label = label(panel.x_label, scale), panel.y_label = label(panel.y_label, scale);
   return scale;
 }
 
-/// The coloured tiles of a picture, before they have units.
+/// The coloured tiles or polygons of a picture, before they have units.
 struct Tiles {
   Curve points;
   std::string field, unit;
   Curve solid{"", {}, {}, Mark::area}, contour{"", {}, {}, Mark::line, 6};  // of bodies in gas, over the tiles
+  Window window;                                                            // all of it, before it is mirrored
   bool mirrored = false;                                                    // to be drawn a second time at negative x
 };
 
-/// The bodies in gas as polygons and lines; between two of them a place that is no number.
-void add_bodies(Tiles& tiles, const gas::Outline& outline) {
+/// A polygon or a line; between two of them is a place that is no number.
+void add_polygon(Curve& curve, std::span<const Vector> places) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const auto add = [&](Curve& curve, const auto& places) {
-    for (const Vector& x : places) curve.x.push_back(x[0]), curve.y.push_back(x[1]);
-    curve.x.push_back(none), curve.y.push_back(none);
-  };
-  for (const auto& polygon : outline.solid) add(tiles.solid, polygon);
-  for (const auto& piece : outline.contour) add(tiles.contour, piece);
+  for (const Vector& x : places) curve.x.push_back(x[0]), curve.y.push_back(x[1]);
+  curve.x.push_back(none), curve.y.push_back(none);
+}
+
+void add_bodies(Tiles& tiles, const gas::Outline& outline) {
+  for (const auto& polygon : outline.solid) add_polygon(tiles.solid, polygon);
+  for (const auto& piece : outline.contour) add_polygon(tiles.contour, piece);
 }
 
 Tiles tiles_of_gas(const Simulation& s, const std::string& name) {
@@ -335,6 +348,8 @@ Tiles tiles_of_gas(const Simulation& s, const std::string& name) {
   Tiles tiles;
   tiles.field = field->name, tiles.unit = field->unit;
   tiles.mirrored = s.geometry == Geometry::axisymmetric && cells.lower[0] == 0;
+  for (const auto& corner : {cells.lower, cells.upper})
+    tiles.window.add(corner[0] * cells.cell_size, corner[1] * cells.cell_size);
   const int slice = (cells.lower[2] + cells.upper[2]) / 2;
   gas::for_each_cell(s.gas, [&](const gas::CellPlace& at) {
     if (s.dimensions() == 3 && cells.index(at.block, at.cell)[2] != slice) return;
@@ -350,44 +365,93 @@ Tiles tiles_of_gas(const Simulation& s, const std::string& name) {
 Tiles tiles_of_solids(const Case& c, const Simulation& s) {
   const Field* field = find_field(c.output.figure_field);
   if (!field) throw std::runtime_error(fmt::format("output.figure_field: there is no field \"{}\"", c.output.figure_field));
-  const double h = s.grid.cell_size;
   Tiles tiles;
-  Curve& points = tiles.points;
+  Curve& cells = tiles.points;
+  cells.mark = Mark::area;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Body& body : s.bodies)
     for (int p = 0; p < body.particles.size; ++p) {
-      const ParticleView view(body.particles, p);
-      const Vector x = view.position();
-      if (s.dimensions() == 3 && std::abs(x[2]) > h) continue;
-      points.x.push_back(x[0]), points.y.push_back(x[1]);
-      field->read(view, &points.values.emplace_back());
-      const Tensor<double> F = view.deformation_gradient();
-      points.half_widths.push_back(view.half_width() * std::hypot(F.xx, F.xy));
-      points.half_heights.push_back(view.half_width() * std::hypot(F.yx, F.yy));
-      nearest = std::min(nearest, std::abs(x[0]));
+      std::vector<Vector> corners = cell_of_particle(c, body, p);
+      if (corners.empty()) continue;
+      corners.push_back(corners.front());  // so that its border is closed
+      add_polygon(cells, corners);
+      std::array<double, 3> components{};
+      field->read(ParticleView(body.particles, p), components.data());
+      cells.values.push_back(components[0]);
+      for (const Vector& x : corners) nearest = std::min(nearest, std::abs(x[0])), tiles.window.add(x[0], x[1]);
     }
-  if (points.x.empty()) throw std::runtime_error("no particle is in the picture");
+  if (cells.x.empty()) throw std::runtime_error("no particle is in the picture");
   tiles.field = field->name, tiles.unit = field->unit;
   // Not if there is a hole between the two halves.
-  tiles.mirrored = (s.geometry == Geometry::axisymmetric || is_mirrored(s, 0)) && nearest < h;
+  tiles.mirrored = (s.geometry == Geometry::axisymmetric || is_mirrored(s, 0)) && nearest < s.grid.cell_size;
   return tiles;
+}
+
+/// All of it once more at negative x.
+void mirror(Tiles& tiles) {
+  for (Curve* curve : {&tiles.points, &tiles.solid, &tiles.contour}) {
+    for (std::size_t i = 0, count = curve->x.size(); i < count; ++i) curve->x.push_back(-curve->x[i]);
+    for (std::vector<double>* same : {&curve->y, &curve->values, &curve->half_widths, &curve->half_heights})
+      for (std::size_t i = 0, count = same->size(); i < count; ++i) same->push_back((*same)[i]);
+  }
+  tiles.window.add(-tiles.window.upper[0], tiles.window.upper[1]);
+}
+
+/// The planes that bound the bodies, as far as they are near the window, which grows to hold them: walls with the hatching of
+/// what is behind them, planes of symmetry that the picture is not mirrored at without.
+Curve planes_of(const Simulation& s, Tiles& tiles) {
+  Window& window = tiles.window;
+  constexpr double near = 0.25, none = std::numeric_limits<double>::quiet_NaN();
+  constexpr double stroke = 9.0;  // pixels
+  const double reach = near * std::max(window.width(), window.height()) + 2.0 * s.grid.cell_size;
+  struct Plane {
+    std::size_t axis;
+    double position, outwards;
+    bool is_wall;
+  };
+  std::vector<Plane> planes;
+  for (const Boundary& b : s.boundaries) {
+    const auto axis = static_cast<std::size_t>(b.axis);
+    if (axis > 1 || b.kind == BoundaryKind::outflow) continue;
+    if (b.kind == BoundaryKind::symmetry && tiles.mirrored && axis == 0) continue;
+    const double position = b.node * s.grid.cell_size + s.grid.origin[axis];
+    if (position < window.lower[axis] - reach || position > window.upper[axis] + reach) continue;
+    planes.push_back({axis, position, static_cast<double>(-b.inward), b.kind != BoundaryKind::symmetry});
+  }
+  const Pixels pixels = pixels_of(window.width(), window.height());
+  const double size[2] = {stroke * window.width() / pixels.width, stroke * window.height() / pixels.height};  // m
+  for (const Plane& plane : planes) {
+    double x[2] = {window.lower[0], window.lower[1]};
+    x[plane.axis] = plane.position;
+    window.add(x[0], x[1]);
+    x[plane.axis] += plane.is_wall ? plane.outwards * size[plane.axis] : 0.0;
+    window.add(x[0], x[1]);
+  }
+  Curve lines{"", {}, {}, Mark::thin, 6};
+  for (const Plane& plane : planes) {
+    const std::size_t along = 1 - plane.axis;
+    const auto add = [&](double place, double height) {
+      double x[2];
+      x[along] = place, x[plane.axis] = plane.position + height * plane.outwards * size[plane.axis];
+      lines.x.push_back(x[0]), lines.y.push_back(x[1]);
+    };
+    const auto interrupt = [&] { lines.x.push_back(none), lines.y.push_back(none); };
+    add(window.lower[along], 0.0), add(window.upper[along], 0.0);
+    interrupt();
+    for (double at = window.lower[along]; plane.is_wall && at + size[along] < window.upper[along]; at += size[along]) {
+      add(at, 1.0), add(at + size[along], 0.0);
+      interrupt();
+    }
+  }
+  return lines;
 }
 
 void draw_field(const Case& c, const Simulation& s, const Path& directory) {
   const double h = s.grid.cell_size;
   Tiles tiles = s.gas.empty() ? tiles_of_solids(c, s) : tiles_of_gas(s, c.output.figure_field);
   Curve& points = tiles.points;
-  if (tiles.mirrored)
-    for (Curve* curve : {&points, &tiles.solid, &tiles.contour})
-      for (std::size_t i = 0, count = curve->x.size(); i < count; ++i) {
-        curve->x.push_back(-curve->x[i]);
-        for (std::vector<double>* same : {&curve->y, &curve->values, &curve->half_widths, &curve->half_heights})
-          if (!same->empty()) same->push_back((*same)[i]);
-      }
-  Window window;
-  for (std::size_t i = 0; i < points.x.size(); ++i)
-    for (const double side : {1.0, -1.0})
-      window.add(points.x[i] + side * points.half_widths[i], points.y[i] + side * points.half_heights[i]);
+  if (tiles.mirrored) mirror(tiles);
+  Curve planes = planes_of(s, tiles);
   Figure figure;
   figure.title = fmt::format("{}: {} at {}", c.title, in_words(tiles.field), in_words(s.time, "s"));
   Panel panel;
@@ -395,12 +459,12 @@ void draw_field(const Case& c, const Simulation& s, const Path& directory) {
   const Scale values = scale_for(tiles.unit, largest(points.values));
   panel.scale_label = label(in_words(tiles.field), values);
   figure.panels.push_back(panel);
-  const Scale lengths = fit(figure, window, 0.5 * h);
+  const Scale lengths = fit(figure, tiles.window, 0.5 * h);
   // Tiles reach a pixel beyond their edges, so that no light shines through between them.
-  for (double& half : points.half_widths) half += (window.width() + h) / (figure.panel_width - 190);
-  for (double& half : points.half_heights) half += (window.height() + h) / (figure.panel_height - 90);
+  for (double& half : points.half_widths) half += (tiles.window.width() + h) / (figure.panel_width - 190);
+  for (double& half : points.half_heights) half += (tiles.window.height() + h) / (figure.panel_height - 90);
   points.values = scaled(std::move(points.values), values.per_si);
-  for (Curve* curve : {&points, &tiles.solid, &tiles.contour}) {
+  for (Curve* curve : {&points, &tiles.solid, &tiles.contour, &planes}) {
     for (std::vector<double>* length : {&curve->x, &curve->y, &curve->half_widths, &curve->half_heights})
       *length = scaled(std::move(*length), lengths.per_si);
     figure.panels.front().curves.push_back(std::move(*curve));

@@ -10,6 +10,7 @@
 #include "simulator/commands.hpp"
 #include "simulator/describe.hpp"
 #include "simulator/dry_run.hpp"
+#include "simulator/formula.hpp"
 #include "simulator/keys.hpp"
 #include "simulator/memory_need.hpp"
 #include "simulator/run.hpp"
@@ -123,6 +124,51 @@ TEST(ResumeCommand, GoesOnUntilALaterTimeAndReportTellsTheSame) {
   EXPECT_EQ(line(report.out), line(resumed.out));
   EXPECT_TRUE(fs::exists(directory / "run" / "energy.png"));
   EXPECT_EQ(call({"resume", directory.string()}).code, bad_input);
+}
+
+/// Two walls along an axis: the grid cannot go with the one that moves, at 100 m/s, by half a cell of 0.8 mm in 4 us.
+TEST(ResumeCommand, RefusesALaterTimeThatTheCaseCouldNotHave) {
+  const fs::path directory = scratch();
+  const std::string walls =
+      "[[boundary]]\nkind = \"rigid_wall\"\naxis = \"y\"\nposition = \"16 mm\"\nside = \"below\"\n"
+      "velocity = \"-100 m/s\"\n";
+  const std::string file = write_text(directory / "bar.toml", small_bar(walls + no_figures)).string(),
+                    run = (directory / "run").string();
+  ASSERT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.5 us"}).code, done);
+  const std::string summary = text_of(directory / "run" / "summary.json");
+  const Answer refused = call({"resume", run, "--until", "5 us"});
+  EXPECT_EQ(refused.code, bad_input);
+  EXPECT_TRUE(contains(refused.err, "case.toml:") && contains(refused.err, "may move half a cell")) << refused.err;
+  EXPECT_EQ(text_of(directory / "run" / "summary.json"), summary);
+  EXPECT_EQ(call({"resume", run, "--until", "1 us"}).code, done);
+}
+
+/// What is foreseen of the longer time is said before it begins.
+TEST(ResumeCommand, WarnsOfWhatALaterTimeBrings) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "tube.toml", R"(
+geometry = "plane"
+cell_size = "10 mm"
+end_time = "20 us"
+[gas]
+lower = [0, 0]
+upper = ["0.2 m", "50 mm"]
+[[gas.fluid]]
+name = "air"
+material = "air.toml"
+[[gas.fill]]
+temperature = "300 K"
+pressure = "1 atm"
+[[gas.body]]
+name = "piston"
+shape = { box = { lower = [-0.1, -0.1], upper = [0.1, 0.1] } }
+velocity = [300, 0]
+)" + no_figures)
+                               .string(),
+                    run = (directory / "run").string();
+  ASSERT_EQ(call({"run", file, "-o", run}).err, "");
+  const Answer resumed = call({"resume", run, "--until", "400 us"});
+  EXPECT_TRUE(contains(resumed.err, "warning: piston: at 0.00031")) << resumed.err;
 }
 
 TEST(ResumeCommand, OfARunThatHasComeToItsEndSaysSoAndTouchesNothing) {
@@ -275,6 +321,19 @@ TEST(DescribeCommand, ExplainsShapesByExamplesThatCanBeRead) {
   }
   EXPECT_TRUE(contains(call({"describe", "sphere"}).out, "inner_radius"));
   EXPECT_TRUE(contains(call({"describe", "spere"}).err, "did you mean \"sphere\"?"));
+}
+
+/// Everything that it names can be used: a formula of all functions and variables is one.
+TEST(DescribeCommand, ExplainsFormulas) {
+  const Answer a = call({"describe", "formula"});
+  EXPECT_EQ(a.code, done) << a.err;
+  for (const char* part : {"gas.edge.density", "gas.fill.velocity", "sqrt", "x, y, z", "a ? b : c", "example"})
+    EXPECT_TRUE(contains(a.out, part)) << part << "\n" << a.out;
+  EXPECT_FALSE(contains(a.out, "cell_size")) << "no formula may stand there";
+  const std::string begins = "density = \"";
+  const std::size_t at = a.out.find(begins) + begins.size();
+  EXPECT_NO_THROW(Formula(a.out.substr(at, a.out.find('"', at) - at), 1, true)) << "the example";
+  EXPECT_TRUE(contains(call({"describe", "formulla"}).err, "did you mean \"formula\"?"));
 }
 
 TEST(DescribeCommand, TellsWhatACaseIs) {

@@ -82,6 +82,70 @@ TEST(APistonInATube, ThatReachesFarEnoughSlidesOrStopsMeetsNothing) {
       << "after 60 of 100 mm";
 }
 
+/// A second body in the tube, without a motion unless `more` gives one.
+std::string body(const std::string& shape, const std::string& more = "") {
+  return "[[gas.body]]\nname = \"other\"\nshape = " + shape + "\n" + more;
+}
+
+TEST(TwoBodiesInATube, MeetWhereTheirWaysCross) {
+  // 100 mm between them.
+  const std::string block = "{ box = { lower = [0.5, 0], upper = [0.6, 0.025] } }";
+  const auto stands = foreseen_meetings(tube("[0.3, 0]", "[0.4, 0.05]", "[300, 0]", body(block)));
+  ASSERT_EQ(stands.size(), 1u);
+  EXPECT_EQ(stands[0].kind, Kind::runs_into_body);
+  EXPECT_EQ(stands[0].body + " " + stands[0].side, "piston other");
+  constexpr double two_looks = 2 * 0.8e-3 / 400;  // s
+  EXPECT_NEAR(stands[0].time, 0.1 / speed, two_looks);
+  EXPECT_TRUE(contains(in_words(stands[0]), "piston and other: from 0.00033")) << in_words(stands[0]);
+  const auto comes = foreseen_meetings(tube("[0.3, 0]", "[0.4, 0.05]", "[300, 0]", body(block, "velocity = [-300, 0]")));
+  ASSERT_EQ(comes.size(), 1u);
+  EXPECT_NEAR(comes[0].time, 0.05 / speed, two_looks);
+  EXPECT_TRUE(foreseen_meetings(tube("[0.3, 0]", "[0.4, 0.05]", "[300, 0]", body(block, "velocity = [200, 0]"))).empty())
+      << "it runs away: 20 mm are left";
+}
+
+TEST(TwoBodiesInATube, ThatPassEachOtherDoNotMeet) {
+  const auto passing = [&](const std::string& lower, const std::string& upper) {
+    return foreseen_meetings(
+        tube("[0.3, 0]", "[0.4, 0.025]", "[300, 0]", body("{ box = { lower = " + lower + ", upper = " + upper + " } }")));
+  };
+  EXPECT_TRUE(passing("[0.5, 0.035]", "[0.6, 0.05]").empty()) << "two cells beside it";
+  EXPECT_TRUE(passing("[0.4, 0.025]", "[0.6, 0.05]").empty()) << "flush";
+  EXPECT_EQ(passing("[0.5, 0.02]", "[0.6, 0.05]").size(), 1u) << "a cell in its way";
+}
+
+/// A bar that turns about its middle: 60 mm from there it comes by.
+TEST(ABarThatTurns, MeetsWhatItsEndsReach) {
+  const auto turning = [&](const std::string& radius) {
+    return foreseen_meetings(read_case(write_text(scratch() / "bar.toml", R"(
+geometry = "plane"
+cell_size = "5 mm"
+end_time = "1 ms"
+[gas]
+lower = [-0.2, -0.2]
+upper = [0.2, 0.2]
+[[gas.fluid]]
+name = "air"
+material = "air.toml"
+[[gas.fill]]
+temperature = "300 K"
+pressure = "1 atm"
+[[gas.body]]
+name = "bar"
+shape = { box = { lower = [-0.06, -0.01], upper = [0.06, 0.01] } }
+rotation = [0, 0, 2000]
+[[gas.body]]
+name = "ball"
+shape = { sphere = { centre = [0, 0.1], radius = )" + radius + " } }\n")));
+  };
+  const auto met = turning("0.06");
+  ASSERT_EQ(met.size(), 1u);
+  EXPECT_EQ(met[0].kind, Kind::runs_into_body);
+  EXPECT_LT(met[0].time, 0.25 * 3.1416e-3) << "before it stands upright";
+  EXPECT_GT(met[0].time, 0.1 * 3.1416e-3);
+  EXPECT_TRUE(turning("0.02").empty());
+}
+
 /// They run to their ends: nothing is to be foreseen of them.
 TEST(TheCasesWithBodies, AreNotWarnedOf) {
   int with_bodies = 0;

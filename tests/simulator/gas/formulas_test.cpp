@@ -175,15 +175,25 @@ TEST(FormulasBeyondAnEdge, AreRefusedWithTheLineAndWhatIsAllowed) {
   }
 }
 
+/// A pressure that falls to zero after a fifth of the time: known before the first step, with place and time.
+TEST(FormulasBeyondAnEdge, AreTriedThroughAllOfTheTimeBeforeARun) {
+  const std::string problems = problems_of(carried(20), "pressure = 1\ndensity", "pressure = \"1 - 9.9*t\"\ndensity");
+  EXPECT_TRUE(contains(problems, "case.toml:")) << problems;
+  // The first of a hundredth after another of 0.5 s that is later than 0.1 s.
+  EXPECT_TRUE(contains(problems, "pressure: at (0.025, 0.225) m, t = 0.105 s")) << problems;
+}
+
+/// The run is longer than the case that was checked.
 TEST(FormulasBeyondAnEdge, EndARunWithASentenceWhereTheyFailOnTheWay) {
   std::string text = carried(20);
-  const std::string from = "pressure = 1\ndensity";
+  const std::string from = "pressure = 1\ndensity", end = "end_time = 0.5";
   text.replace(text.rfind(from), from.size(), "pressure = \"1 - 10*t\"\ndensity");
+  text.replace(text.find(end), end.size(), "end_time = 0.05");
   const Case c = case_of(text);
   Simulation s = set_up(c);
   const fs::path directory = scratch();
   prepare_directory(directory / "run", c, false);
-  const RunResult result = run(c, s, {directory / "run", {}});
+  const RunResult result = run(c, s, {directory / "run", 0.5});
   EXPECT_NE(result.ending, Ending::done);
   EXPECT_TRUE(contains(result.message, "gas.edge high_y: pressure: at (")) << result.message;
 }

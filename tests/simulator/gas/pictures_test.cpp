@@ -3,17 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "simulator/case_reader.hpp"
 #include "simulator/gas/outline.hpp"
-#include "simulator/output/figures.hpp"
 #include "simulator/output/line_out.hpp"
 #include "simulator/run.hpp"
 #include "simulator/setup.hpp"
 #include "tests/command_line.hpp"
 #include "tests/simulator/gas/bodies_set_up.hpp"
+#include "tests/simulator/told_to_gnuplot.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -54,6 +53,26 @@ TEST(TheOutlineOfABall, IsACircle) {
   }
 }
 
+/// A disk with its middle on a side of the box: half a circle, and its diameter along the side.
+TEST(TheOutlineOfADiskHalfOutOfTheBox, IsClosedAtTheSide) {
+  constexpr double h = 0.01, radius = 0.06;
+  const auto domain = single_process();
+  gas::Gas gas = gas::set_up::box(Geometry::plane, h, {0, 0, 0}, {40, 20, 0}, {gas::set_up::ideal_gas()}, *domain);
+  gas.bodies.all = {gas::set_up::ball(Geometry::plane, h, {0.2, 0.0, 0.0}, radius)};
+  fill(
+      gas,
+      [](const Vector&, double) {
+        return gas::Filling{0, 1.2, 1e5, {}};
+      },
+      *domain);
+  double along_the_side = 0.0, elsewhere = 0.0;
+  for (const auto& [from, to] : gas::outline_of(gas, 0).contour)
+    (from[1] == 0.0 && to[1] == 0.0 ? along_the_side : elsewhere) += magnitude(to - from);
+  constexpr double part = 0.03;  // of smear and particles
+  EXPECT_NEAR(along_the_side, 2.0 * radius, part * 2.0 * radius);
+  EXPECT_NEAR(elsewhere, std::numbers::pi * radius, part * std::numbers::pi * radius);
+}
+
 TEST(AReferenceOfGas, IsInterruptedWhereABodyIs) {
   constexpr double h = 0.1;
   const LineOut computed{"x", {0.05, 0.15, 0.25, 0.65, 0.75, 0.85}, {}};  // a body from 0.3 to 0.6
@@ -76,20 +95,6 @@ TEST(AReferenceOfGas, IsInterruptedWhereABodyIs) {
   // Without a body nothing is cut.
   const LineOut whole = outside_bodies({"x", {0.0, 1.0}, {{1, 2}}}, {"x", {0.05, 0.15, 0.25, 0.35}, {}}, h);
   EXPECT_EQ(whole.place, (std::vector<double>{0.0, 1.0}));
-}
-
-/// Draws with a program in the place of gnuplot that keeps what it is told, and returns that.
-std::string told_to_gnuplot(const Case& c, const Simulation& s, const fs::path& directory) {
-  fs::create_directories(directory / "bin");
-  const fs::path told = directory / "told.txt", program = directory / "bin" / "gnuplot";
-  write_text(program, "#!/bin/sh\ntee -a '" + told.string() +
-                          "' | sed -n 's/^set output \"\\(.*\\)\"$/\\1/p' | while read -r name; do echo x > \"$name\"; done\n");
-  fs::permissions(program, fs::perms::owner_all);
-  const std::string before = std::getenv("PATH");
-  setenv("PATH", ((directory / "bin").string() + ":" + before).c_str(), 1);
-  static_cast<void>(draw_figures(c, s, directory));
-  setenv("PATH", before.c_str(), 1);
-  return text_of(told);
 }
 
 TEST(PicturesOfGas, ShowTheReferenceOverWhatWasComputedAndTheBodyOverTheCells) {
