@@ -9,7 +9,6 @@
 
 #include "tests/simulator/gas/exact_riemann.hpp"
 #include "tests/simulator/gas/slow_flow.hpp"
-#include "tests/simulator/virtual_ranks.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -209,19 +208,6 @@ TEST(ImplicitColumn, OfIsothermalGasStaysAtRest) {
       *domain);
   Stepper().steps(gas, 500, *domain);
   EXPECT_LT(fastest_over_sound(gas), 1e-10);
-}
-
-TEST(ImplicitBox, IsRefusedInSeveralProcesses) {
-  VirtualRanks::run(2, [](std::shared_ptr<Domain> domain) {
-    Gas gas = implicit_box(Geometry::planar_1d, 0.01, {}, {256, 0, 0}, {set_up::ideal_gas()}, 20.0, *domain);
-    EXPECT_THROW(fill(
-                     gas,
-                     [](const Vector&, double) {
-                       return Filling{0, 1.0, 1.0, {}};
-                     },
-                     *domain),
-                 std::runtime_error);
-  });
 }
 
 // Open sides -----------------------------------------------------------------------------------------------------------
