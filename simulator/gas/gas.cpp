@@ -172,10 +172,9 @@ Outcome advance_fluids(Gas& gas, double dt, Domain& domain) {
     gas.careful = true;
   }
   if (gas.careful) gas.plain += forget_plain_cells(gas);
-  timed(gas, Phase::ghosts, [&] {
-    with_bodies ? settle_with_bodies(gas, dt, domain) : settle(gas);
-    book_step(gas.passages);
-  });
+  timed(gas, Phase::ghosts, [&] { with_bodies ? settle_with_bodies(gas, dt, domain) : settle(gas); });
+  if (with_bodies) timed(gas, Phase::reaction, [&] { react_around_bodies(gas, dt); });
+  timed(gas, Phase::ghosts, [&] { book_step(gas.passages); });
   gas.time += dt, ++gas.step;
   begin(gas, domain);
   return Outcome::done;

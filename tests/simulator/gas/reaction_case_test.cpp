@@ -18,9 +18,9 @@ fs::path shipped(const std::string& name) {
   return fs::path(BRISANCE_SOURCE_DIR) / "data/cases" / (name + ".toml");
 }
 
-std::string problems_of(const std::vector<std::string>& changes) {
+std::string problems_of(const std::vector<std::string>& changes, const std::string& name = "detonation_pbx_9501") {
   try {
-    read_case(shipped("detonation_pbx_9501"), changes);
+    read_case(shipped(name), changes);
     return "";
   } catch (const InputError& error) {
     std::string all;
@@ -57,6 +57,10 @@ TEST(ReactionCase, IsToldWhatIsWrongWithIt) {
   EXPECT_TRUE(contains(problems_of({key + "reactant=\"products\"", key + "product=\"explosive\""}), "has no [reaction] table"));
   EXPECT_TRUE(contains(problems_of({key + "ignition=[{time = 0.0}]"}), "burns by pressure alone"));
   EXPECT_TRUE(contains(problems_of({key + "rate=1"}), "unknown key"));
+  const std::string body = "gas.body=[{name = \"plug\", shape = {box = {lower = [0], upper = [1]}}}]";
+  const std::string surface = "a reaction at a surface in a gas with bodies";
+  EXPECT_TRUE(contains(problems_of({body}, "closed_bomb"), surface));
+  EXPECT_FALSE(contains(problems_of({body}), surface));
   EXPECT_EQ(problems_of({}), "");
 }
 
