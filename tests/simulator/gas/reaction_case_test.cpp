@@ -57,10 +57,13 @@ TEST(ReactionCase, IsToldWhatIsWrongWithIt) {
   EXPECT_TRUE(contains(problems_of({key + "reactant=\"products\"", key + "product=\"explosive\""}), "has no [reaction] table"));
   EXPECT_TRUE(contains(problems_of({key + "ignition=[{time = 0.0}]"}), "burns by pressure alone"));
   EXPECT_TRUE(contains(problems_of({key + "rate=1"}), "unknown key"));
-  const std::string body = "gas.body=[{name = \"plug\", shape = {box = {lower = [0], upper = [1]}}}]";
-  const std::string surface = "a reaction at a surface in a gas with bodies";
-  EXPECT_TRUE(contains(problems_of({body}, "closed_bomb"), surface));
-  EXPECT_FALSE(contains(problems_of({body}), surface));
+  // In a plane, with a body.
+  const std::vector<std::string> with_body = {
+      "geometry=\"plane\"", "gas.lower=[0, 0]", "gas.upper=[\"100 mm\", \"100 mm\"]",
+      "gas.fill.1.shape={box = {lower = [0, 0], upper = [\"5 mm\", 1]}}",
+      "gas.body=[{name = \"plug\", shape = {box = {lower = [\"50 mm\", 0], upper = [1, \"50 mm\"]}}}]"};
+  EXPECT_TRUE(contains(problems_of(with_body, "closed_bomb"), "a reaction at a surface in a gas with bodies"));
+  EXPECT_FALSE(contains(problems_of(with_body), "in a gas with bodies"));
   EXPECT_EQ(problems_of({}), "");
 }
 
