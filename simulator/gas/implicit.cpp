@@ -84,11 +84,11 @@ void find_laws(Gas& gas, std::size_t block, double dt) {
             law = {Lanes(0.0), Lanes(0.0)};
             break;
           case EdgeKind::inflow:
-            law = {s.velocity[outside], Lanes(0.0)};
+          case EdgeKind::non_reflecting: {  // what the pressure inside has beyond that outside is that of an outgoing wave
+            const LanesMask leaves_room = sign * s.velocity[outside] < s.sound[inside];  // for waves: slower than they
+            law = {s.velocity[outside], select(leaves_room, 1.0 / (s.density[inside] * s.sound[inside]), Lanes(0.0))};
             break;
-          case EdgeKind::non_reflecting:  // the pressure inside is that of an outgoing wave
-            law = {s.velocity[outside], 1.0 / (s.density[inside] * s.sound[inside])};
-            break;
+          }
           case EdgeKind::pressure:
           case EdgeKind::periodic:
             return;
