@@ -23,20 +23,21 @@ bool all_is_well(Gas& gas) {
       const std::size_t n = w.at(index);
       if (bodies.next_space.volume[n] == 0.0) continue;
       const double room = whole_cell(gas.cells, index[0]).volume;
-      double mass = 0.0, thermal = 0.0, kinetic = 0.0;
+      double mass = 0.0, cold = 0.0, kinetic = 0.0;
       bool fine = true;
       for (std::size_t r = 0; r < gas.fluids.size(); ++r) {
         const std::size_t first = Content::momentum + D + per_fluid * r;
         const double own = s.content[first][n];
         mass += own;
         if (!(own >= 0.0)) fine = false;
+        const Fluid& fluid = gas.fluids[r];
+        const double volume = gas.fluids.size() == 1 ? room : s.content[first + Content::volume][n];
+        cold += own * coldest_energy(fluid, Lanes(volume > 0.0 ? own / volume : fluid.usual_density))[0];
         if (gas.fluids.size() > 1 && s.content[first + Content::volume][n] < -1e-14 * room) fine = false;
       }
       for (std::size_t a = 0; a < D; ++a)
         kinetic += 0.5 * s.content[Content::momentum + a][n] * s.content[Content::momentum + a][n];
-      thermal = s.content[Content::energy][n] - kinetic / mass;
-      if (gas.fluids.size() == 1) thermal -= mass * coldest_energy(gas.fluids[0], Lanes(mass / room))[0];
-      if (fine && mass > 0.0 && thermal > 0.0) continue;
+      if (fine && mass > 0.0 && s.content[Content::energy][n] - kinetic / mass > cold) continue;
       gas.marks.cell(block, 0, c) = 1.0, good[i] = 0;
     }
   });

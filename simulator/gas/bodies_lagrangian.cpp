@@ -17,8 +17,17 @@ Lanes slope_at(const Column& q, std::size_t n, std::size_t step, const LanesMask
   return select(smooth, monotonised_central(at(q, n - step), at(q, n), at(q, n + step)), Lanes(0.0));
 }
 
+/// Slope of the pressure less its hydrostatic part.
+Lanes pressure_slope_at(const StepFields& s, std::size_t n, std::size_t step, const LanesMask& smooth, double half_head) {
+  const Column &p = s.primitive[Primitive::pressure], &density = s.primitive[Primitive::density];
+  if (half_head == 0.0) return slope_at(p, n, step, smooth);
+  const Lanes below = at(p, n - step) + half_head * (at(density, n - step) + at(density, n));
+  const Lanes above = at(p, n + step) - half_head * (at(density, n) + at(density, n + step));
+  return select(smooth, monotonised_central(below, at(p, n), above), Lanes(0.0));
+}
+
 FaceSide face_side(const StepFields& s, const Window& w, const CutCells& step, std::size_t n, std::size_t axis, double towards,
-                   const LanesMask& plain) {
+                   const LanesMask& plain, double half_head) {
   const LanesMask smooth = at(step.smooth[axis], n) > 0.5;
   const auto slope_of = [&](int quantity) {
     return slope_at(s.primitive[static_cast<std::size_t>(quantity)], n, offset(w, axis), smooth);
@@ -28,7 +37,8 @@ FaceSide face_side(const StepFields& s, const Window& w, const CutCells& step, s
               velocity = at(s.primitive[static_cast<std::size_t>(along)], n);
   FaceSide side;
   side.density = density + towards * slope_of(Primitive::density);
-  side.pressure = pressure + towards * slope_of(Primitive::pressure) + at(s.half[HalfStep::pressure], n);
+  const Lanes excess = pressure_slope_at(s, n, offset(w, axis), smooth, half_head);
+  side.pressure = pressure + towards * (excess + (2.0 * half_head) * density) + at(s.half[HalfStep::pressure], n);
   side.velocity = velocity + towards * slope_of(along) + at(s.half[HalfStep::velocity + axis], n);
   return trusted(side, density, pressure, velocity, plain);
 }
@@ -63,7 +73,7 @@ void half_step(Gas& gas, double dt) {
     LanesMask whole(true);
     for (std::size_t a = 0; a < D; ++a) {
       const LanesMask smooth = at(step.smooth[a], n) > 0.5;
-      const Lanes push = slope_at(s.primitive[Primitive::pressure], n, offset(w, a), smooth);
+      const Lanes push = pressure_slope_at(s, n, offset(w, a), smooth, 0.5 * gas.gravity[a] * h);
       ((-0.5 * dt / h) * push / density).store(s.half[HalfStep::velocity + a].data() + n);
       divergence += slope_at(s.primitive[Primitive::velocity + a], n, offset(w, a), smooth);
       whole &= smooth;
@@ -106,7 +116,8 @@ void find_faces(Gas& gas, double dt) {
     for_each_eight(w, [&](std::size_t n) {
       const std::size_t l = n - offset(w, a);
       const LanesMask plain = first_order(gas, l, n);
-      FaceSide L = face_side(s, w, step, l, a, 0.5, plain), R = face_side(s, w, step, n, a, -0.5, plain);
+      const double half_head = 0.5 * gas.gravity[a] * gas.cells.cell_size;
+      FaceSide L = face_side(s, w, step, l, a, 0.5, plain, half_head), R = face_side(s, w, step, n, a, -0.5, plain, half_head);
       Lanes sound_L = at(s.primitive[Primitive::sound_speed], l), sound_R = at(s.primitive[Primitive::sound_speed], n);
       // A cell that is only being opened has no state to send.
       const LanesMask gas_L = at(gas.bodies.space.volume, l) > 0.0, gas_R = at(gas.bodies.space.volume, n) > 0.0;
@@ -163,6 +174,56 @@ void push_cells(Gas& gas, double dt) {
     (at(gas.bodies.next_space.volume, n) + dt * growth).store(s.volume.data() + n);
     for (std::size_t q = Content::momentum + D; q < s.change.size(); ++q) Lanes(0.0).store(s.change[q].data() + n);
   });
+}
+
+Lanes whole_mass(const Gas& gas, std::size_t n) {
+  const StepFields& s = gas.bodies.fields;
+  Lanes mass(0.0);
+  for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r) {
+    const int quantity = Content::fluids(gas.dimensions()) + r * gas.fluid_quantities() + Content::mass;
+    mass += at(s.content[static_cast<std::size_t>(quantity)], n);
+  }
+  return mass;
+}
+
+void pull_by_gravity(Gas& gas, double dt) {
+  if (gas.gravity == Vector{}) return;
+  const Bodies& bodies = gas.bodies;
+  const Window& w = bodies.window;
+  StepFields& s = gas.bodies.fields;
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  Column& work = s.rubbing;  // J; scratch until there is friction
+  for_each_eight(w, [&](std::size_t n) {
+    const Lanes open = at(bodies.space.volume, n) / whole_volumes(gas.cells, w, n);
+    const Lanes mass = open * whole_mass(gas, n);
+    Lanes free;
+    for (std::size_t l = 0; l < 8; ++l)
+      free.set(static_cast<int>(l), bodies.step.is_cut[std::min(n + l, w.length - 1)] ? 0.0 : 1.0);
+    Lanes weight(0.0);
+    for (std::size_t a = 0; a < D; ++a) {
+      const double g = gas.gravity[a];
+      if (g == 0.0) continue;
+      Column& change = s.change[Content::momentum + a];
+      const Lanes pulled = at(change, n) + (dt * g) * free * mass;
+      pulled.store(change.data() + n);
+      weight += (dt * g) * (open * at(s.content[Content::momentum + a], n) + 0.5 * pulled);
+    }
+    weight = select(mass > 0.0, weight, Lanes(0.0));
+    weight.store(work.data() + n);
+    (at(s.change[Content::energy], n) + weight).store(s.change[Content::energy].data() + n);
+  });
+  for (Passage& pull : gas.passages) {
+    if (pull.side != 2 * gas.dimensions()) continue;
+    for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
+      const auto block = static_cast<std::size_t>(pull.block);
+      const Index index = gas.cells.index(block, c);
+      if (!gas.cells.contains(index)) continue;
+      const std::size_t n = w.at(index);
+      const double mass = bodies.space.volume[n] / whole_cell(gas.cells, index[0]).volume * whole_mass(gas, n)[0];
+      for (std::size_t a = 0; a < D; ++a) pull.step.momentum[a] += dt * gas.gravity[a] * mass;
+      pull.step.energy += work[n];
+    }
+  }
 }
 
 void hold_rows_together(Gas& gas, double dt) {

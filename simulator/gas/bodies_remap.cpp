@@ -252,6 +252,23 @@ std::int64_t remap(Gas& gas, double dt) {
   return flattened;
 }
 
+/// How a quantity changes from cell to cell in a column of constant entropy at rest: d rho = rho g dx/c^2, de = (e + p) d
+/// rho/rho per volume; none without gravity, and of what does not change so.
+SlopeAt column_slope(const Gas& gas, std::size_t q) {
+  const auto first = static_cast<std::size_t>(Content::fluids(gas.dimensions()));
+  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
+  const bool of_fluid = q >= first, energy = of_fluid ? (q - first) % per_fluid == Content::internal : q == Content::energy;
+  if (gas.gravity == Vector{} || !(energy || (of_fluid && (q - first) % per_fluid == Content::mass))) return {};
+  return [&gas, q, energy, of_fluid](std::size_t n) {
+    const StepFields& s = gas.bodies.fields;
+    if (!(gas.bodies.space.volume[n] > 0.0)) return Vector{};
+    const double c = s.primitive[Primitive::sound_speed][n], p = s.primitive[Primitive::pressure][n];
+    const double whole = whole_cell(gas.cells, gas.bodies.window.index(n)[0]).volume;
+    const double part = !energy ? 0.0 : !of_fluid ? 1.0 : s.content[q - Content::internal + Content::volume][n] / whole;
+    return (gas.cells.cell_size / (c * c) * (s.mean[n] + part * p)) * gas.gravity;
+  };
+}
+
 void redistribute_all(Gas& gas, std::vector<double>& entrapped, Meeting& meeting) {
   Bodies& bodies = gas.bodies;
   const Window& w = bodies.window;
@@ -271,11 +288,12 @@ void redistribute_all(Gas& gas, std::vector<double>& entrapped, Meeting& meeting
     for (const std::size_t n : bodies.small.shared) first.push_back(s.mean[n]);
     std::vector<double> shared_before;
     for (const SharedWithWorld& m : with_world) shared_before.push_back(s.mean[m.cell]);
-    const std::vector<double> means = redistribute(w, bodies.small, bodies.next_space.volume, s.mean, s.covered);
+    const std::vector<NeighbourhoodMean> means =
+        redistribute(w, bodies.small, bodies.next_space.volume, s.mean, s.covered, column_slope(gas, q));
     for (std::size_t k = 0; k < with_world.size(); ++k) {
       const SharedWithWorld& m = with_world[k];
-      const double gain = gain_of(bodies.small, m.cell, bodies.next_space.volume[m.cell], means[m.neighbourhood],
-                                  shared_before[k], s.covered[m.cell]);
+      const double gain = gain_of(bodies.small, m.cell, bodies.next_space.volume[m.cell],
+                                  means[m.neighbourhood].at(w.index(m.cell)), shared_before[k], s.covered[m.cell]);
       auto& step = gas.passages[static_cast<std::size_t>(m.passage)].step;
       if (q == Content::energy)
         step.energy += gain;

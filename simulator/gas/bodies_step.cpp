@@ -44,6 +44,7 @@ bool try_step_with_bodies(Gas& gas, double dt, Domain& domain) {
   timed(gas, Phase::lagrangian, [&] {
     std::vector<Received> received;
     if (here) unsplit::find_faces(gas, dt), unsplit::push_cells(gas, dt), received = unsplit::push_by_walls(gas, dt);
+    if (here) unsplit::pull_by_gravity(gas, dt);
     unsplit::push_bodies(gas, received, dt, domain);
     if (here) unsplit::hold_rows_together(gas, dt);
     if (here && gas.fluids.size() > 1) unsplit::share_changes(gas);

@@ -26,6 +26,11 @@ LanesMask first_order(const Gas& gas, std::size_t low, std::size_t high);
 void find_faces(Gas& gas, double dt);
 /// What the faces do to each cell before anything is carried along: volume, momentum, energy.
 void push_cells(Gas& gas, double dt);
+/// Mass of the fluids of eight cells, kg, per whole cell.
+Lanes whole_mass(const Gas& gas, std::size_t n);
+/// The weight of the gas, after the walls have pushed: in cells that they cut they have held it up (push_by_walls), and what
+/// remains of it here is its work.
+void pull_by_gravity(Gas& gas, double dt);
 /// Friction between the rows of whole cells that a shock runs along (friction.hpp), after the walls have pushed.
 void hold_rows_together(Gas& gas, double dt);
 /// The fluids of a cell share its change of volume and energy by their compressibility.

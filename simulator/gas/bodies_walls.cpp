@@ -63,19 +63,28 @@ std::vector<Received> push_by_walls(Gas& gas, double dt) {
   parallel_for_blocks(step.cut.size(), [&](std::size_t k) {
     const CutCell& c = step.cut[k];
     const WallPush push = wall_pressure(gas, c);
-    // The pressure of the wall is taken off all around: what is in balance stays so to the last bit.
+    Received& r = received[k];
+    r.impulse = (dt * push.pressure) * c.wall;
+    // The pressure of the wall is taken off all around: what is in balance stays so to the last bit. The weight of the gas is
+    // what a pressure that rises by `head` along its cell pushes all around the gas: it is taken off the faces, and the wall
+    // takes its part of it.
+    const double volume = gas.bodies.space.volume[c.cell];
     for (std::size_t a = 0; a < D; ++a) {
       const std::size_t low = c.cell, high = c.cell + offset(w, a);
-      s.change[Content::momentum + a][c.cell] = -dt * (step.area[a][high] * (s.pressure[a][high] - push.pressure) -
-                                                       step.area[a][low] * (s.pressure[a][low] - push.pressure));
+      const double area_low = step.area[a][low], area_high = step.area[a][high], g = gas.gravity[a];
+      const double half_head = volume > 0.0 ? 0.5 * g * gas.cells.cell_size * s.primitive[Primitive::density][c.cell] : 0.0;
+      s.change[Content::momentum + a][c.cell] = -dt * (area_high * (s.pressure[a][high] - (push.pressure + half_head)) -
+                                                       area_low * (s.pressure[a][low] - (push.pressure - half_head)));
+      if (g == 0.0) continue;
+      const double mass = volume / whole_cell(gas.cells, w.index(c.cell)[0]).volume * whole_mass(gas, c.cell)[0];
+      r.impulse[a] += dt * (g * mass - half_head * (area_high + area_low));
     }
     if (gas.cells.geometry == Geometry::axisymmetric) {
       const double side = 0.5 * (gas.bodies.space.side[c.cell] + gas.bodies.next_space.side[c.cell]);
       s.change[Content::momentum][c.cell] +=
           dt * (w.index(c.cell)[0] < 0 ? -side : side) * (push.momentum_pressure - push.pressure);
     }
-    Received& r = received[k];
-    r.impulse = (dt * push.pressure) * c.wall, r.work = push.pressure * c.growth, r.push = magnitude(r.impulse);
+    r.work = push.pressure * c.growth, r.push = magnitude(r.impulse);
     s.change[Content::energy][c.cell] -= r.work;
   });
   return received;
@@ -109,7 +118,8 @@ void push_bodies(Gas& gas, const std::vector<Received>& received, double dt, Dom
     const MovingBody& body = bodies.all[b];
     if (body.mass == 0.0) continue;
     const auto axis = static_cast<std::size_t>(body.axis);
-    const double before = body.state.velocity[axis], after = before + sums[b].impulse[axis] / body.mass;
+    const double before = body.state.velocity[axis],
+                 after = before + sums[b].impulse[axis] / body.mass + dt * gas.gravity[axis];
     next[b].velocity[axis] = after, next[b].acceleration[axis] = (after - before) / dt;
     const double done = sums[b].impulse[axis] * (0.5 * (before + after));
     if (!(sums[b].push > 0.0)) continue;

@@ -182,7 +182,16 @@ void fill_beyond(Gas& gas) {
       // Contents are those of whole cells, which about an axis are the wider the farther out they lie.
       const double wider = whole_cell(cells, cell[0]).volume / whole_cell(cells, from[0]).volume;
       for (Column& column : s.content) column[n] *= wider;
-      if (edge.kind == EdgeKind::wall) return;
+      if (edge.kind == EdgeKind::wall) {
+        // A column that rests on the wall, or hangs from it, goes on beyond it (continue_column in ghosts.cpp).
+        const int inward = cell[a] < lower ? 1 : -1, depth = inward > 0 ? lower - cell[a] : cell[a] - (upper - 1);
+        double between = s.primitive[Primitive::density][source];
+        Index at_wall = cell;
+        for (int k = 1; gas.gravity[a] != 0.0 && k < std::min(depth, upper - lower); ++k)
+          at_wall[a] = cell[a] + inward * (depth + k - 1), between += 2.0 * s.primitive[Primitive::density][w.at(at_wall)];
+        s.primitive[Primitive::pressure][n] -= inward * gas.gravity[a] * cells.cell_size * between;
+        return;
+      }
       Vector x{};
       for (std::size_t b = 0; b < static_cast<std::size_t>(w.dimensions); ++b) {
         // What lies beyond two sides is as beside the corner: a state beyond one of them need not make sense there.

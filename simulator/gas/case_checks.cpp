@@ -150,13 +150,15 @@ void check_with_bodies(TableReader& in, const Case& c) {
   const auto refuse = [&](bool when, std::string_view what) {
     if (when) in.problem("body", std::string(what) + " in a gas with bodies is not possible; remove one of the two");
   };
-  refuse(c.gravity != Vector{}, "gravity");
   refuse(gas.implicit, "the implicit option");
   refuse(gas.scheme == GasScheme::ice_classic, "the classic scheme");
-  refuse(!gas.reactions.empty(), "a reaction");
+  const auto at_a_surface = [&](const ReactionConfig& reaction) {
+    const FluidConfig* reactant = find_fluid(c, reaction.reactant);
+    const auto* law = reactant ? &reactant->material.material.reaction : nullptr;
+    return law && law->has_value() && has_surface(**law);
+  };
+  refuse(std::any_of(gas.reactions.begin(), gas.reactions.end(), at_a_surface), "a reaction at a surface");
   refuse(gas.heat_exchange > 0.0 || has_transport(gas.fluids), "viscosity or conduction");
-  refuse(std::any_of(gas.fills.begin(), gas.fills.end(), [](const FillConfig& f) { return f.energy.has_value(); }),
-         "the energy of a fill");
   const bool drawn =
       std::all_of(gas.bodies.begin(), gas.bodies.end(), [](const GasBodyConfig& b) { return b.shape != nullptr; });
   if (drawn && c.cell_size > 0.0 && c.dimensions() > 1)

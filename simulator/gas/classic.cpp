@@ -4,70 +4,102 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/exchange.hpp"
+#include "simulator/gas/ghosts.hpp"
 #include "simulator/gas/transport.hpp"
+#include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
 
 namespace eos = equation_of_state;
 using Values = std::vector<double>;
+using State = ClassicState;
 
-/// The cells of the box in the order of x, y, z.
+/// A cell of the box that this process owns.
+struct Cell {
+  CellPlace place;
+  std::array<int, 3> index;
+};
+
+/// Straight cells, all alike.
 struct Lattice {
-  std::array<int, 3> lower{}, cells{};
+  const Cells& cells;
+  double h, room, area;  // m, m^3, m^2
+  int dimensions, fluids;
   std::array<bool, 3> periodic{};
-  double h = 0.0;
-  int dimensions = 1;
-  std::size_t count = 0;
 
-  explicit Lattice(const Gas& gas) : h(gas.cells.cell_size), dimensions(gas.dimensions()), count(1) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      lower[a] = gas.cells.lower[a], cells[a] = gas.cells.upper[a] - gas.cells.lower[a];
-      periodic[a] = 2 * a < gas.edges.size() && gas.edges[2 * a].kind == EdgeKind::periodic;
-      count *= static_cast<std::size_t>(cells[a]);
-    }
+  explicit Lattice(const Gas& gas)
+      : cells(gas.cells),
+        h(cells.cell_size),
+        room(std::pow(h, cells.dimensions)),
+        area(std::pow(h, cells.dimensions - 1)),
+        dimensions(cells.dimensions),
+        fluids(static_cast<int>(gas.fluids.size())) {
+    for (std::size_t a = 0; 2 * a < gas.edges.size(); ++a) periodic[a] = gas.edges[2 * a].kind == EdgeKind::periodic;
   }
-  double volume() const { return std::pow(h, dimensions); }
-  double area() const { return std::pow(h, dimensions - 1); }
-  std::size_t number(const std::array<int, 3>& i) const {
-    return static_cast<std::size_t>(i[0] - lower[0] + cells[0] * (i[1] - lower[1] + cells[1] * (i[2] - lower[2])));
+  CellSet field(int quantities) const {
+    CellSet set(quantities, cells.packs());
+    set.resize(cells.blocks.size());
+    return set;
   }
-  /// The next cell along an axis; the cell itself where a wall is in between.
-  std::size_t next(std::size_t c, std::size_t axis, int step) const {
-    const std::size_t stride = axis == 0   ? 1
-                               : axis == 1 ? static_cast<std::size_t>(cells[0])
-                                           : static_cast<std::size_t>(cells[0] * cells[1]);
-    const auto length = static_cast<std::size_t>(cells[axis]);
-    const std::size_t i = c / stride % length;
-    if (step > 0) return i + 1 < length ? c + stride : periodic[axis] ? c - i * stride : c;
-    return i > 0 ? c - stride : periodic[axis] ? c + (length - 1) * stride : c;
+  /// The next cell along an axis: of the box, the halo or the ghosts.
+  CellPlace next(const CellPlace& at, int axis, int step) const {
+    const int side = dimensions == 1 ? 64 : line, stride = axis == 0 ? 1 : axis == 1 ? line : line * line;
+    const int i = at.cell / stride % side + step;
+    if (i >= 0 && i < side) return {at.block, at.cell + step * stride};
+    const std::int32_t block = cells.neighbours[at.block][static_cast<std::size_t>(2 * axis + (step > 0 ? 1 : 0))];
+    return {static_cast<std::size_t>(block), at.cell - step * (side - 1) * stride};
+  }
+  bool wall(const Cell& c, int axis, int step) const {
+    const auto a = static_cast<std::size_t>(axis);
+    return !periodic[a] && c.index[a] == (step > 0 ? cells.upper[a] - 1 : cells.lower[a]);
   }
 };
 
+double& at(CellSet& set, int quantity, const CellPlace& c) {
+  return set.cell(c.block, quantity, c.cell);
+}
+double at(const CellSet& set, int quantity, const CellPlace& c) {
+  return set.cell(c.block, quantity, c.cell);
+}
+
 template <class F>
-void for_each_own_cell(const Gas& gas, F&& f) {
-  for (const std::int32_t b : gas.cells.mine) {
-    const auto block = static_cast<std::size_t>(b);
-    for (int c = 0; c < 8 * gas.cells.packs(); ++c)
-      if (gas.cells.contains(gas.cells.index(block, c))) f(block, c, gas.cells.index(block, c));
-  }
+void for_each_cell_of(const Cells& cells, std::int32_t b, F&& f) {
+  const auto block = static_cast<std::size_t>(b);
+  for (int c = 0; c < 8 * cells.packs(); ++c)
+    if (const std::array<int, 3> index = cells.index(block, c); cells.contains(index)) f(Cell{{block, c}, index});
+}
+template <class F>
+void for_each_own_cell(const Cells& cells, F&& f) {
+  parallel_for_blocks(cells.mine.size(), [&](std::size_t i) { for_each_cell_of(cells, cells.mine[i], f); });
+}
+/// Whether all own cells of all ranks are.
+template <class F>
+bool all_own_cells(const Cells& cells, Domain& domain, F&& good) {
+  std::atomic<bool> all = true;
+  for_each_own_cell(cells, [&](const Cell& c) {
+    if (!good(c)) all = false;
+  });
+  return domain.maximum(all ? 0.0 : 1.0) == 0.0;
 }
 
 eos::PressureSlopes<double> slopes_of(const Fluid& fluid, double density, double energy) {
   return std::visit([&](const auto& law) { return eos::pressure_slopes(law, density, energy); }, fluid.equation_of_state);
 }
 
-/// Fluids of all cells at one pressure.
+/// Quantities of the fluids of a cell at one pressure.
 struct Equilibrium {
-  Values pressure, density, sound;                // [cell]; of the mixture, the fastest of its fluids
-  Values part, specific_volume, compressibility;  // [fluid][cell]: theta, v, kappa
-  bool good = true;
+  static constexpr int pressure = 0, density = 1, sound = 2;  // of the mixture, the fastest of its fluids
+  static int part(int r) { return 3 + 3 * r; }                // theta
+  static int specific_volume(int r) { return 4 + 3 * r; }
+  static int compressibility(int r) { return 5 + 3 * r; }  // kappa
 };
 constexpr double least_part = 1e-12;
 
@@ -75,8 +107,8 @@ constexpr double least_part = 1e-12;
 double specific_volume_at(const Fluid& fluid, double pressure, double energy, double start) {
   double v = start;
   for (int n = 0; n < 100; ++n) {
-    const auto at = slopes_of(fluid, 1.0 / v, energy);
-    const double change = (at.pressure - pressure) * v * v / at.per_density;
+    const auto now = slopes_of(fluid, 1.0 / v, energy);
+    const double change = (now.pressure - pressure) * v * v / now.per_density;
     const double next = std::clamp(v + change, 0.5 * v, 2.0 * v);
     const bool settled = std::abs(next - v) <= 1e-15 * v;
     v = next;
@@ -85,136 +117,161 @@ double specific_volume_at(const Fluid& fluid, double pressure, double energy, do
   return v;
 }
 
-Equilibrium equilibrium_of(const Gas& gas, const Lattice& lattice) {
-  const ClassicState& s = *gas.classic;
-  const std::size_t fluids = gas.fluids.size(), n = lattice.count;
-  const double room = lattice.volume();
-  Equilibrium q;
-  q.pressure.resize(n), q.density.resize(n), q.sound.resize(n);
-  q.part.resize(fluids * n), q.specific_volume.assign(fluids * n, 1.0), q.compressibility.resize(fluids * n);
-  for (std::size_t c = 0; c < n; ++c) {
-    Values v(fluids), energy(fluids);
-    std::vector<bool> here(fluids);
-    double p = 0.0, weight = 0.0;
-    for (std::size_t r = 0; r < fluids; ++r) {
-      const std::size_t i = r * n + c;
-      q.density[c] += s.mass[i] / room;
-      here[r] = s.mass[i] > 0.0 && s.volume[i] > least_part * room;
-      if (!here[r]) continue;
-      v[r] = fluids == 1 ? room / s.mass[i] : s.volume[i] / s.mass[i], energy[r] = s.internal[i] / s.mass[i];
-      const auto at = slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]);
-      const double soft = s.mass[i] * v[r] * v[r] / at.per_density;
-      p += soft * at.pressure, weight += soft;
-    }
-    p /= weight;
-    // Newton in the pressure at fixed energies; halved where it would leave the positive ones.
-    constexpr int most_iterations = 100;
-    for (int k = 0; fluids > 1 && k < most_iterations; ++k) {
-      double sum = -1.0, slope = 0.0;
-      for (std::size_t r = 0; r < fluids; ++r) {
-        if (!here[r]) continue;
-        const double density = s.mass[r * n + c] / room;
-        v[r] = specific_volume_at(gas.fluids[r], p, energy[r], v[r]);
-        sum += density * v[r];
-        slope += density * v[r] * v[r] / slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]).per_density;
-      }
-      if (std::abs(sum) < 1e-13) break;
-      if (k + 1 == most_iterations) q.good = false;
-      p = std::max(p + sum / slope, 0.5 * p);
-    }
-    q.pressure[c] = p;
-    q.good = q.good && p > 0.0;
-    for (std::size_t r = 0; r < fluids; ++r) {
-      if (!here[r]) continue;
-      const std::size_t i = r * n + c;
-      const auto at = slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]);
-      const double square = at.per_density + at.pressure * at.per_energy * v[r] * v[r];
-      q.part[i] = s.mass[i] * v[r] / room, q.specific_volume[i] = v[r], q.compressibility[i] = v[r] / square;
-      q.sound[c] = std::max(q.sound[c], std::sqrt(square));
-    }
+/// False where there is none.
+bool find_equilibrium(const Gas& gas, const CellSet& s, const Lattice& lattice, const Cell& c, CellSet& q) {
+  const auto fluids = static_cast<std::size_t>(lattice.fluids);
+  const double room = lattice.room;
+  Values mass(fluids), v(fluids), energy(fluids);
+  std::vector<bool> here(fluids);
+  double p = 0.0, weight = 0.0, density_of_all = 0.0;
+  bool good = true;
+  for (std::size_t r = 0; r < fluids; ++r) {
+    const auto of = [&](int quantity) { return at(s, State::of(lattice.dimensions, static_cast<int>(r), quantity), c.place); };
+    mass[r] = of(State::mass);
+    density_of_all += mass[r] / room;
+    here[r] = mass[r] > 0.0 && of(State::volume) > least_part * room;
+    if (!here[r]) continue;
+    v[r] = fluids == 1 ? room / mass[r] : of(State::volume) / mass[r], energy[r] = of(State::internal) / mass[r];
+    const auto now = slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]);
+    const double soft = mass[r] * v[r] * v[r] / now.per_density;
+    p += soft * now.pressure, weight += soft;
   }
-  return q;
+  p /= weight;
+  // Newton in the pressure at fixed energies; halved where it would leave the positive ones.
+  constexpr int most_iterations = 100;
+  for (int k = 0; fluids > 1 && k < most_iterations; ++k) {
+    double sum = -1.0, slope = 0.0;
+    for (std::size_t r = 0; r < fluids; ++r) {
+      if (!here[r]) continue;
+      const double density = mass[r] / room;
+      v[r] = specific_volume_at(gas.fluids[r], p, energy[r], v[r]);
+      sum += density * v[r];
+      slope += density * v[r] * v[r] / slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]).per_density;
+    }
+    if (std::abs(sum) < 1e-13) break;
+    if (k + 1 == most_iterations) good = false;
+    p = std::max(p + sum / slope, 0.5 * p);
+  }
+  at(q, Equilibrium::pressure, c.place) = p, at(q, Equilibrium::density, c.place) = density_of_all;
+  double sound = 0.0;
+  for (std::size_t r = 0; r < fluids; ++r) {
+    double part = 0.0, compressibility = 0.0;
+    if (here[r]) {
+      const auto now = slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]);
+      const double square = now.per_density + now.pressure * now.per_energy * v[r] * v[r];
+      part = mass[r] * v[r] / room, compressibility = v[r] / square;
+      sound = std::max(sound, std::sqrt(square));
+    }
+    const int n = static_cast<int>(r);
+    at(q, Equilibrium::part(n), c.place) = part, at(q, Equilibrium::compressibility(n), c.place) = compressibility;
+    at(q, Equilibrium::specific_volume(n), c.place) = here[r] ? v[r] : 1.0;
+  }
+  at(q, Equilibrium::sound, c.place) = sound;
+  return good && p > 0.0;
 }
 
 /// Gradient of a field in a cell, limited so that no corner of the cell leaves the range of its neighbours. `shrink` divides
 /// what the corners may differ by: mass and what it carries vary together.
-Vector limited_gradient(const Lattice& lattice, const double* field, std::size_t c, double shrink = 1.0) {
+Vector limited_gradient(const Lattice& lattice, const CellSet& set, int quantity, const CellPlace& c, double shrink = 1.0) {
   Vector gradient{};
-  double lowest = field[c], highest = field[c], reach_of_corner = 0.0;
-  for (std::size_t a = 0; a < static_cast<std::size_t>(lattice.dimensions); ++a) {
-    const double below = field[lattice.next(c, a, -1)], above = field[lattice.next(c, a, 1)];
+  const double here = at(set, quantity, c);
+  double lowest = here, highest = here, reach_of_corner = 0.0;
+  for (int a = 0; a < lattice.dimensions; ++a) {
+    const double below = at(set, quantity, lattice.next(c, a, -1)), above = at(set, quantity, lattice.next(c, a, 1));
     lowest = std::min({lowest, below, above}), highest = std::max({highest, below, above});
-    gradient[a] = (above - below) / (2.0 * lattice.h);
-    reach_of_corner += 0.5 * lattice.h * std::abs(gradient[a]) * shrink;
+    double& slope = gradient[static_cast<std::size_t>(a)];
+    slope = (above - below) / (2.0 * lattice.h);
+    reach_of_corner += 0.5 * lattice.h * std::abs(slope) * shrink;
   }
   if (reach_of_corner == 0.0) return gradient;
-  const double factor = std::min({1.0, (highest - field[c]) / reach_of_corner, (field[c] - lowest) / reach_of_corner});
+  const double factor = std::min({1.0, (highest - here) / reach_of_corner, (here - lowest) / reach_of_corner});
   for (double& g : gradient) g *= factor;
   return gradient;
 }
 
-/// Velocity of each fluid through the high face of each cell: [axis][fluid][cell].
-struct FaceVelocities {
-  std::array<Values, 3> of;
-  std::size_t cells;
-  double at(std::size_t axis, std::size_t fluid, std::size_t cell) const { return of[axis][fluid * cells + cell]; }
+/// What the high faces let pass: velocity of each fluid, and slopes of its part of the cell. Quantities by fluid and axis.
+struct Flow {
+  const Lattice& lattice;
+  CellSet speeds, slopes;
+
+  int number(int fluid, int axis) const { return fluid * lattice.dimensions + axis; }
+  /// Through the low (-1) or high (1) face of a cell, m/s along the axis.
+  double speed(const Cell& c, int fluid, int axis, int side) const {
+    if (lattice.wall(c, axis, side)) return 0.0;
+    return at(speeds, number(fluid, axis), side > 0 ? c.place : lattice.next(c.place, axis, -1));
+  }
+  /// Calls f(donor, sign, swept, offset) for the faces of a cell that are no walls: sign of what comes in along the axis, the
+  /// volume that passes along it in dt (s), and how far its middle is from that of its donor.
+  template <class F>
+  void for_each_face(const Cell& c, int fluid, double dt, F&& f) const {
+    for (int axis = 0; axis < lattice.dimensions; ++axis)
+      for (const int side : {-1, 1}) {
+        if (lattice.wall(c, axis, side)) continue;
+        const double u = speed(c, fluid, axis, side);
+        const CellPlace donor = (u > 0.0) == (side > 0) ? c.place : lattice.next(c.place, axis, side);
+        f(axis, donor, -side, u * dt * lattice.area, (u > 0.0 ? 0.5 : -0.5) * (lattice.h - std::abs(u) * dt));
+      }
+  }
 };
 
-FaceVelocities face_velocities(const Gas& gas, const Lattice& lattice, const Equilibrium& q, double dt) {
-  const ClassicState& s = *gas.classic;
-  const std::size_t fluids = gas.fluids.size(), n = lattice.count;
-  const double room = lattice.volume();
-  FaceVelocities u{{}, n};
+void find_velocities(const Gas& gas, const Lattice& lattice, const CellSet& s, const CellSet& q, double dt, const Cell& cell,
+                     Flow& flow) {
+  const auto fluids = static_cast<std::size_t>(lattice.fluids);
+  const CellPlace& c = cell.place;
   Values velocity(fluids), capacity(fluids), part(fluids);
-  for (std::size_t a = 0; a < static_cast<std::size_t>(lattice.dimensions); ++a) {
-    u.of[a].assign(fluids * n, 0.0);
-    for (std::size_t c = 0; c < n; ++c) {
-      const std::size_t d = lattice.next(c, a, 1);
-      if (d == c) continue;  // a wall
-      double mixture = 0.0, mass = 0.0;
-      for (std::size_t r = 0; r < fluids; ++r) {
-        const std::size_t i = r * n + c, j = r * n + d;
-        const bool low = q.part[i] > 0.0, high = q.part[j] > 0.0;
-        part[r] = 0.5 * (q.part[i] + q.part[j]);
-        velocity[r] = capacity[r] = 0.0;
-        if (!low && !high) continue;
-        const double v_low = q.specific_volume[low ? i : j], v_high = q.specific_volume[high ? j : i];
-        const double v = 2.0 * v_low * v_high / (v_low + v_high);
-        velocity[r] = (s.momentum[i][a] + s.momentum[j][a]) / (s.mass[i] + s.mass[j]) -
-                      dt * v * (q.pressure[d] - q.pressure[c]) / lattice.h;
-        capacity[r] = room * part[r] / v;
-        mixture += capacity[r] * velocity[r], mass += capacity[r];
-      }
-      exchange<double>(velocity, capacity, part, dt * room * s.momentum_exchange);
-      for (std::size_t r = 0; r < fluids; ++r) u.of[a][r * n + c] = part[r] > 0.0 ? velocity[r] : mixture / mass;
+  for (int a = 0; a < lattice.dimensions; ++a) {
+    if (lattice.wall(cell, a, 1)) continue;
+    const CellPlace d = lattice.next(c, a, 1);
+    double mixture = 0.0, mass = 0.0;
+    for (std::size_t r = 0; r < fluids; ++r) {
+      const int n = static_cast<int>(r);
+      const auto sum = [&](int quantity) {
+        return at(s, State::of(lattice.dimensions, n, quantity), c) + at(s, State::of(lattice.dimensions, n, quantity), d);
+      };
+      const double part_c = at(q, Equilibrium::part(n), c), part_d = at(q, Equilibrium::part(n), d);
+      part[r] = 0.5 * (part_c + part_d);
+      velocity[r] = capacity[r] = 0.0;
+      if (!(part_c > 0.0) && !(part_d > 0.0)) continue;
+      const double v_low = at(q, Equilibrium::specific_volume(n), part_c > 0.0 ? c : d);
+      const double v_high = at(q, Equilibrium::specific_volume(n), part_d > 0.0 ? d : c);
+      const double v = 2.0 * v_low * v_high / (v_low + v_high);
+      velocity[r] = sum(State::momentum + a) / sum(State::mass) -
+                    dt * v * (at(q, Equilibrium::pressure, d) - at(q, Equilibrium::pressure, c)) / lattice.h;
+      capacity[r] = lattice.room * part[r] / v;
+      mixture += capacity[r] * velocity[r], mass += capacity[r];
     }
+    exchange<double>(velocity, capacity, part, dt * lattice.room * gas.classic->momentum_exchange);
+    for (std::size_t r = 0; r < fluids; ++r)
+      at(flow.speeds, flow.number(static_cast<int>(r), a), c) = part[r] > 0.0 ? velocity[r] : mixture / mass;
   }
-  return u;
 }
 
-/// What passes the high faces of all cells in a step: the volume swept times the field where it comes from. With `mass` the
-/// field is what a unit of mass carries, and goes with the mass (compatible fluxes).
-template <class Add>
-void advect(const Lattice& lattice, const FaceVelocities& u, std::size_t fluid, double dt, const double* density,
-            const double* carried, Add&& add) {
-  for (std::size_t a = 0; a < static_cast<std::size_t>(lattice.dimensions); ++a)
-    for (std::size_t c = 0; c < lattice.count; ++c) {
-      const std::size_t d = lattice.next(c, a, 1);
-      if (d == c) continue;
-      const double speed = u.at(a, fluid, c), swept = speed * dt * lattice.area();
-      const std::size_t donor = speed > 0.0 ? c : d;
-      const double offset = (speed > 0.0 ? 0.5 : -0.5) * (lattice.h - std::abs(speed) * dt);
-      const Vector slope = limited_gradient(lattice, density, donor);
-      double through = swept * (density[donor] + slope[a] * offset);
-      if (carried) {
-        double lightest = density[donor];
-        for (const double g : slope) lightest -= 0.5 * lattice.h * std::abs(g);
-        const double shrink = lightest > 0.0 ? density[donor] / lightest : 1e300;
-        through =
-            through * carried[donor] + swept * density[donor] * limited_gradient(lattice, carried, donor, shrink)[a] * offset;
-      }
-      add(c, d, through);
-    }
+/// What the drag makes of the velocities of a cell, and the exchange of heat of its temperatures. What the drag takes from the
+/// kinetic energy is lost.
+void exchange_in_cell(const Gas& gas, const Lattice& lattice, const CellSet& q, double dt, const CellPlace& c, CellSet& s) {
+  const auto fluids = static_cast<std::size_t>(lattice.fluids);
+  if (fluids == 1) return;
+  Values x(fluids), capacity(fluids), part(fluids), mass(fluids), cold(fluids);
+  const auto of = [&](std::size_t r, int quantity) -> double& {
+    return at(s, State::of(lattice.dimensions, static_cast<int>(r), quantity), c);
+  };
+  for (std::size_t r = 0; r < fluids; ++r)
+    part[r] = at(q, Equilibrium::part(static_cast<int>(r)), c), mass[r] = capacity[r] = of(r, State::mass);
+  for (int a = 0; a < lattice.dimensions; ++a) {
+    for (std::size_t r = 0; r < fluids; ++r) x[r] = mass[r] > 0.0 ? of(r, State::momentum + a) / mass[r] : 0.0;
+    exchange<double>(x, capacity, part, dt * lattice.room * gas.classic->momentum_exchange);
+    for (std::size_t r = 0; r < fluids; ++r) of(r, State::momentum + a) = mass[r] * x[r];
+  }
+  if (gas.heat_exchange == 0.0) return;
+  for (std::size_t r = 0; r < fluids; ++r) {
+    const EquationOfState& law = gas.fluids[r].equation_of_state;
+    const double density = 1.0 / at(q, Equilibrium::specific_volume(static_cast<int>(r)), c);
+    cold[r] = mass[r] * eos::energy(law, density, 0.0);
+    capacity[r] = mass[r] * (eos::energy(law, density, 1.0) - eos::energy(law, density, 0.0));
+    x[r] = capacity[r] > 0.0 ? (of(r, State::internal) - cold[r]) / capacity[r] : 0.0;
+  }
+  exchange<double>(x, capacity, part, dt * lattice.room * gas.heat_exchange);
+  for (std::size_t r = 0; r < fluids; ++r) of(r, State::internal) = cold[r] + capacity[r] * x[r];
 }
 
 }  // namespace
@@ -234,176 +291,197 @@ std::vector<std::string> classic_limits(const ClassicDemands& demands) {
   return reasons;
 }
 
-void open_classic(Gas& gas, const Domain& domain) {
-  if (domain.size() > 1) throw std::runtime_error("ice_classic runs in one process only");
+void open_classic(Gas& gas) {
   const ClassicDemands demands = demands_of(gas, gas.cells.geometry, gas.gravity, !gas.burns.empty());
   if (const std::vector<std::string> reasons = classic_limits(demands); !reasons.empty())
     throw std::runtime_error(fmt::format("{}", fmt::join(reasons, "\n")));
   const Lattice lattice(gas);
-  const std::size_t fluids = gas.fluids.size(), n = lattice.count;
-  ClassicState& s = *gas.classic;
-  s.mass.assign(fluids * n, 0.0), s.volume = s.internal = s.mass, s.momentum.assign(fluids * n, Vector{});
-  const int D = gas.dimensions();
-  for_each_own_cell(gas, [&](std::size_t block, int c, const std::array<int, 3>& index) {
+  const int D = lattice.dimensions;
+  CellSet& s = gas.classic->state;
+  s = lattice.field(lattice.fluids * State::count(D));
+  for_each_own_cell(gas.cells, [&](const Cell& c) {
     double mass = 0.0, kinetic = 0.0;
-    const auto of = [&](int quantity) { return gas.content.cell(block, quantity, c); };
-    const auto first = [&](std::size_t r) { return Content::fluids(D) + static_cast<int>(r) * gas.fluid_quantities(); };
-    for (std::size_t r = 0; r < fluids; ++r) mass += of(first(r));
+    const auto of = [&](int quantity) { return at(gas.content, quantity, c.place); };
+    const auto first = [&](int r) { return Content::fluids(D) + r * gas.fluid_quantities(); };
+    for (int r = 0; r < lattice.fluids; ++r) mass += of(first(r));
     for (int a = 0; a < D; ++a) kinetic += 0.5 * of(Content::momentum + a) * of(Content::momentum + a) / mass;
-    for (std::size_t r = 0; r < fluids; ++r) {
-      const std::size_t i = r * n + lattice.number(index);
-      s.mass[i] = of(first(r));
-      s.volume[i] = fluids == 1 ? of(Content::room) : of(first(r) + Content::volume);
-      s.internal[i] = fluids == 1 ? of(Content::energy) - kinetic : of(first(r) + Content::internal);
-      for (int a = 0; a < D; ++a) s.momentum[i][static_cast<std::size_t>(a)] = of(Content::momentum + a) * s.mass[i] / mass;
+    for (int r = 0; r < lattice.fluids; ++r) {
+      const auto own = [&](int quantity) -> double& { return at(s, State::of(D, r, quantity), c.place); };
+      own(State::mass) = of(first(r));
+      own(State::volume) = lattice.fluids == 1 ? of(Content::room) : of(first(r) + Content::volume);
+      own(State::internal) = lattice.fluids == 1 ? of(Content::energy) - kinetic : of(first(r) + Content::internal);
+      for (int a = 0; a < D; ++a) own(State::momentum + a) = of(Content::momentum + a) * own(State::mass) / mass;
     }
   });
 }
 
-void show_classic(Gas& gas) {
+void show_classic(Gas& gas, Domain& domain) {
   const Lattice lattice(gas);
-  const Equilibrium q = equilibrium_of(gas, lattice);
-  const ClassicState& s = *gas.classic;
-  const std::size_t fluids = gas.fluids.size(), n = lattice.count;
-  const int D = gas.dimensions();
-  gas.wave_rate = gas.motion_rate = 0.0;
-  for_each_own_cell(gas, [&](std::size_t block, int cell, const std::array<int, 3>& index) {
-    const std::size_t c = lattice.number(index);
+  const int D = lattice.dimensions;
+  const CellSet& s = gas.classic->state;
+  CellSet q = lattice.field(Equilibrium::part(lattice.fluids));
+  for_each_own_cell(gas.cells, [&](const Cell& cell) {
+    find_equilibrium(gas, s, lattice, cell, q);
+    const CellPlace& c = cell.place;
     Vector momentum{};
-    double mass = 0.0, energy = 0.0, rate = static_cast<double>(D) * q.sound[c] / lattice.h;
-    for (std::size_t r = 0; r < fluids; ++r) {
-      const std::size_t i = r * n + c;
-      const int first = Content::fluids(D) + static_cast<int>(r) * gas.fluid_quantities();
-      mass += s.mass[i], energy += s.internal[i];
-      for (std::size_t a = 0; a < 3; ++a) {
-        momentum[a] += s.momentum[i][a];
-        if (s.mass[i] > 0.0) energy += 0.5 * s.momentum[i][a] * s.momentum[i][a] / s.mass[i];
+    double mass = 0.0, energy = 0.0;
+    for (int r = 0; r < lattice.fluids; ++r) {
+      const auto own = [&](int quantity) { return at(s, State::of(D, r, quantity), c); };
+      const int first = Content::fluids(D) + r * gas.fluid_quantities();
+      mass += own(State::mass), energy += own(State::internal);
+      for (int a = 0; a < D; ++a) {
+        const double p = own(State::momentum + a);
+        momentum[static_cast<std::size_t>(a)] += p;
+        if (own(State::mass) > 0.0) energy += 0.5 * p * p / own(State::mass);
       }
-      gas.content.cell(block, first, cell) = s.mass[i];
-      if (fluids == 1) continue;
-      gas.content.cell(block, first + Content::volume, cell) = q.part[i] * lattice.volume();
-      gas.content.cell(block, first + Content::internal, cell) = s.internal[i];
+      at(gas.content, first, c) = own(State::mass);
+      if (lattice.fluids == 1) continue;
+      at(gas.content, first + Content::volume, c) = at(q, Equilibrium::part(r), c) * lattice.room;
+      at(gas.content, first + Content::internal, c) = own(State::internal);
     }
-    gas.content.cell(block, Content::energy, cell) = energy;
-    gas.primitive.cell(block, Primitive::density, cell) = mass / lattice.volume();
-    gas.primitive.cell(block, Primitive::pressure, cell) = q.pressure[c];
-    gas.primitive.cell(block, Primitive::sound_speed, cell) = q.sound[c];
+    at(gas.content, Content::energy, c) = energy;
+    at(gas.primitive, Primitive::density, c) = mass / lattice.room;
+    at(gas.primitive, Primitive::pressure, c) = at(q, Equilibrium::pressure, c);
+    at(gas.primitive, Primitive::sound_speed, c) = at(q, Equilibrium::sound, c);
     for (int a = 0; a < D; ++a) {
-      const double u = momentum[static_cast<std::size_t>(a)] / mass;
-      gas.content.cell(block, Content::momentum + a, cell) = momentum[static_cast<std::size_t>(a)];
-      gas.primitive.cell(block, Primitive::velocity + a, cell) = u;
-      rate += std::abs(u) / lattice.h, gas.motion_rate = std::max(gas.motion_rate, std::abs(u) / lattice.h);
+      const double p = momentum[static_cast<std::size_t>(a)];
+      at(gas.content, Content::momentum + a, c) = p, at(gas.primitive, Primitive::velocity + a, c) = p / mass;
     }
-    gas.wave_rate = rate < gas.wave_rate ? gas.wave_rate : rate;
   });
+  gas.wave_rate = gas.motion_rate = 0.0;
+  for (const std::int32_t block : gas.cells.mine)
+    for_each_cell_of(gas.cells, block, [&](const Cell& c) {
+      double rate = D * at(gas.primitive, Primitive::sound_speed, c.place) / lattice.h;
+      for (int a = 0; a < D; ++a) {
+        const double motion = std::abs(at(gas.primitive, Primitive::velocity + a, c.place)) / lattice.h;
+        rate += motion, gas.motion_rate = std::max(gas.motion_rate, motion);
+      }
+      gas.wave_rate = rate < gas.wave_rate ? gas.wave_rate : rate;
+    });
+  gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
 }
 
-Outcome advance_classic(Gas& gas, double dt) {
+Outcome advance_classic(Gas& gas, double dt, Domain& domain) {
   const Lattice lattice(gas);
-  const std::size_t fluids = gas.fluids.size(), n = lattice.count, D = static_cast<std::size_t>(lattice.dimensions);
-  const double room = lattice.volume(), area = lattice.area();
-  const Equilibrium q = equilibrium_of(gas, lattice);
-  if (!q.good) return Outcome::rejected;
-  ClassicState s = *gas.classic;
-  const FaceVelocities u = face_velocities(gas, lattice, q, dt);
+  const Cells& cells = gas.cells;
+  const int D = lattice.dimensions, fluids = lattice.fluids;
+  const double room = lattice.room, area = lattice.area;
+  const auto share_all = [&](CellSet& set) { share_scalars(gas, set, Beyond::continued, domain); };
+
+  CellSet s = gas.classic->state, q = lattice.field(Equilibrium::part(fluids));
+  if (!all_own_cells(cells, domain, [&](const Cell& c) { return find_equilibrium(gas, s, lattice, c, q); }))
+    return Outcome::rejected;
+  share_all(s), share_all(q);
+  Flow flow{lattice, lattice.field(fluids * D), lattice.field(fluids * D)};
+  for_each_own_cell(cells, [&](const Cell& c) {
+    find_velocities(gas, lattice, s, q, dt, c, flow);
+    for (int r = 0; r < fluids; ++r) {
+      const Vector slope = limited_gradient(lattice, q, Equilibrium::part(r), c.place);
+      for (int a = 0; a < D; ++a) at(flow.slopes, flow.number(r, a), c.place) = slope[static_cast<std::size_t>(a)];
+    }
+  });
+  share_all(flow.speeds), share_all(flow.slopes);
 
   // The change of pressure, by the divergence that the advection itself sees.
-  Values change(n), compliance(n), swept_out(fluids * n);
-  for (std::size_t r = 0; r < fluids; ++r) {
-    advect(lattice, u, r, dt, q.part.data() + r * n, nullptr,
-           [&](std::size_t c, std::size_t d, double through) { change[c] -= through, change[d] += through; });
-    for (std::size_t c = 0; c < n; ++c) compliance[c] += q.part[r * n + c] * q.compressibility[r * n + c];
-    for (std::size_t a = 0; a < D; ++a)
-      for (std::size_t c = 0; c < n; ++c) {
-        const double swept = u.at(a, r, c) * dt * area;
-        swept_out[r * n + (swept > 0.0 ? c : lattice.next(c, a, 1))] += std::abs(swept);
-      }
-  }
-  if (*std::max_element(swept_out.begin(), swept_out.end()) > room) return Outcome::rejected;
-  Values pressure(n);
-  for (std::size_t c = 0; c < n; ++c) {
-    change[c] /= room * compliance[c];
+  constexpr int new_pressure = 0, change_of_pressure = 1;
+  CellSet solved = lattice.field(2);
+  const bool nothing_overdrawn = all_own_cells(cells, domain, [&](const Cell& c) {
+    double change = 0.0, compliance = 0.0, most_out = 0.0;
+    for (int r = 0; r < fluids; ++r) {
+      const int part = Equilibrium::part(r);
+      double swept_out = 0.0;
+      flow.for_each_face(c, r, dt, [&](int axis, const CellPlace& donor, int sign, double swept, double offset) {
+        change += sign * (swept * (at(q, part, donor) + at(flow.slopes, flow.number(r, axis), donor) * offset));
+        if (donor.block == c.place.block && donor.cell == c.place.cell) swept_out += std::abs(swept);
+      });
+      most_out = std::max(most_out, swept_out);
+      compliance += at(q, part, c.place) * at(q, Equilibrium::compressibility(r), c.place);
+    }
+    change /= room * compliance;
     constexpr double least_pressure = 1e-12;
-    pressure[c] = std::max(q.pressure[c] + change[c], least_pressure);
-  }
+    at(solved, change_of_pressure, c.place) = change;
+    at(solved, new_pressure, c.place) = std::max(at(q, Equilibrium::pressure, c.place) + change, least_pressure);
+    return !(most_out > room);
+  });
+  if (!nothing_overdrawn) return Outcome::rejected;
+  share_all(solved);
 
   // Lagrangian phase.
-  const auto face_pressure = [&](std::size_t c, std::size_t d) {
-    return (pressure[c] * q.density[d] + pressure[d] * q.density[c]) / (q.density[c] + q.density[d]);
+  const auto face_pressure = [&](const CellPlace& c, const CellPlace& d) {
+    const double density_c = at(q, Equilibrium::density, c), density_d = at(q, Equilibrium::density, d);
+    return (at(solved, new_pressure, c) * density_d + at(solved, new_pressure, d) * density_c) / (density_c + density_d);
   };
-  for (std::size_t r = 0; r < fluids; ++r)
-    for (std::size_t c = 0; c < n; ++c) {
-      const std::size_t i = r * n + c;
-      for (std::size_t a = 0; a < D; ++a)
-        s.momentum[i][a] -=
-            dt * q.part[i] * area * (face_pressure(c, lattice.next(c, a, 1)) - face_pressure(lattice.next(c, a, -1), c));
-      s.internal[i] += room * q.part[i] * q.compressibility[i] * pressure[c] * change[c];
-      s.volume[i] -= room * q.part[i] * q.compressibility[i] * change[c];
+  // What a unit of mass carries, in the place of the amounts; of the mass the density.
+  CellSet carried = lattice.field(fluids * State::count(D));
+  for_each_own_cell(cells, [&](const Cell& cell) {
+    const CellPlace& c = cell.place;
+    for (int r = 0; r < fluids; ++r) {
+      const auto own = [&](int quantity) -> double& { return at(s, State::of(D, r, quantity), c); };
+      const double part = at(q, Equilibrium::part(r), c), compressibility = at(q, Equilibrium::compressibility(r), c);
+      for (int a = 0; a < D; ++a)
+        own(State::momentum + a) -=
+            dt * part * area * (face_pressure(c, lattice.next(c, a, 1)) - face_pressure(lattice.next(c, a, -1), c));
+      const double change = at(solved, change_of_pressure, c);
+      own(State::internal) += room * part * compressibility * at(solved, new_pressure, c) * change;
+      own(State::volume) -= room * part * compressibility * change;
     }
-  for (Passage& wall : gas.passages) {  // all of a side in its first passage
-    const auto first =
-        std::find_if(gas.passages.begin(), gas.passages.end(), [&](const Passage& p) { return p.side == wall.side; });
-    const auto a = static_cast<std::size_t>(wall.side / 2);
-    if (&*first != &wall || lattice.periodic[a]) continue;
-    const int outward = wall.side % 2 == 0 ? -1 : 1;
-    double impulse = 0.0;
-    for (std::size_t c = 0; c < n; ++c)
-      if (lattice.next(c, a, outward) == c)
-        for (std::size_t r = 0; r < fluids; ++r) impulse -= outward * dt * q.part[r * n + c] * area * pressure[c];
-    wall.step.momentum[a] = impulse;
-  }
-
-  // Exchange. What the drag takes from the kinetic energy is lost.
-  Values x(fluids), capacity(fluids), part(fluids);
-  for (std::size_t c = 0; fluids > 1 && c < n; ++c) {
-    for (std::size_t r = 0; r < fluids; ++r) part[r] = q.part[r * n + c], capacity[r] = s.mass[r * n + c];
-    for (std::size_t a = 0; a < D; ++a) {
-      for (std::size_t r = 0; r < fluids; ++r) x[r] = capacity[r] > 0.0 ? s.momentum[r * n + c][a] / capacity[r] : 0.0;
-      exchange<double>(x, capacity, part, dt * room * s.momentum_exchange);
-      for (std::size_t r = 0; r < fluids; ++r) s.momentum[r * n + c][a] = capacity[r] * x[r];
+    exchange_in_cell(gas, lattice, q, dt, c, s);
+    for (int r = 0; r < fluids; ++r) {
+      const double mass = at(s, State::of(D, r, State::mass), c);
+      at(carried, State::of(D, r, State::mass), c) = mass / room;
+      for (int n = State::mass + 1; n < State::count(D); ++n)
+        at(carried, State::of(D, r, n), c) = mass > 0.0 ? at(s, State::of(D, r, n), c) / mass : 0.0;
     }
-    if (gas.heat_exchange == 0.0) continue;
-    Values cold(fluids);
-    for (std::size_t r = 0; r < fluids; ++r) {
-      const EquationOfState& law = gas.fluids[r].equation_of_state;
-      const double density = 1.0 / q.specific_volume[r * n + c], mass = s.mass[r * n + c];
-      cold[r] = mass * eos::energy(law, density, 0.0);
-      capacity[r] = mass * (eos::energy(law, density, 1.0) - eos::energy(law, density, 0.0));
-      x[r] = capacity[r] > 0.0 ? (s.internal[r * n + c] - cold[r]) / capacity[r] : 0.0;
-    }
-    exchange<double>(x, capacity, part, dt * room * gas.heat_exchange);
-    for (std::size_t r = 0; r < fluids; ++r) s.internal[r * n + c] = cold[r] + capacity[r] * x[r];
-  }
+  });
+  for (Passage& side : gas.passages)
+    for_each_cell_of(cells, side.block, [&](const Cell& c) {
+      const int axis = side.side / 2, outward = side.side % 2 == 0 ? -1 : 1;
+      if (!lattice.wall(c, axis, outward)) return;
+      double& impulse = side.step.momentum[static_cast<std::size_t>(axis)];
+      for (int r = 0; r < fluids; ++r)
+        impulse -= outward * dt * at(q, Equilibrium::part(r), c.place) * area * at(solved, new_pressure, c.place);
+    });
+  share_all(carried);
 
   // Advection.
-  ClassicState next = s;
-  for (std::size_t r = 0; r < fluids; ++r) {
-    Values density(n), carried(n);
-    for (std::size_t c = 0; c < n; ++c) density[c] = s.mass[r * n + c] / room;
-    const auto carry = [&](auto&& amount_of, auto&& receive) {
-      for (std::size_t c = 0; c < n; ++c) carried[c] = s.mass[r * n + c] > 0.0 ? amount_of(r * n + c) / s.mass[r * n + c] : 0.0;
-      advect(lattice, u, r, dt, density.data(), carried.data(), [&](std::size_t c, std::size_t d, double through) {
-        receive(r * n + c) -= through, receive(r * n + d) += through;
-      });
-    };
-    advect(lattice, u, r, dt, density.data(), nullptr, [&](std::size_t c, std::size_t d, double through) {
-      next.mass[r * n + c] -= through, next.mass[r * n + d] += through;
-    });
-    carry([&](std::size_t i) { return s.internal[i]; }, [&](std::size_t i) -> double& { return next.internal[i]; });
-    carry([&](std::size_t i) { return s.volume[i]; }, [&](std::size_t i) -> double& { return next.volume[i]; });
-    for (std::size_t a = 0; a < D; ++a)
-      carry([&](std::size_t i) { return s.momentum[i][a]; }, [&](std::size_t i) -> double& { return next.momentum[i][a]; });
-  }
-  for (std::size_t c = 0; c < n; ++c) {
+  CellSet slopes = lattice.field(fluids * State::count(D) * D);
+  for_each_own_cell(cells, [&](const Cell& c) {
+    for (int r = 0; r < fluids; ++r) {
+      double shrink = 1.0;
+      for (int n = State::mass; n < State::count(D); ++n) {
+        const int quantity = State::of(D, r, n);
+        const Vector slope = limited_gradient(lattice, carried, quantity, c.place, shrink);
+        for (int a = 0; a < D; ++a) at(slopes, quantity * D + a, c.place) = slope[static_cast<std::size_t>(a)];
+        if (n > State::mass) continue;
+        const double density = at(carried, quantity, c.place);
+        double lightest = density;
+        for (const double g : slope) lightest -= 0.5 * lattice.h * std::abs(g);
+        shrink = lightest > 0.0 ? density / lightest : 1e300;
+      }
+    }
+  });
+  share_all(slopes);
+  CellSet next = s;
+  const bool all_have_mass = all_own_cells(cells, domain, [&](const Cell& c) {
     double mass = 0.0;
-    for (std::size_t r = 0; r < fluids; ++r) mass += next.mass[r * n + c];
-    if (!(mass > 0.0)) return Outcome::rejected;
-  }
-  std::swap(*gas.classic, next);
-  if (!equilibrium_of(gas, lattice).good) {
-    std::swap(*gas.classic, next);
+    for (int r = 0; r < fluids; ++r) {
+      const int first = State::of(D, r, State::mass);
+      flow.for_each_face(c, r, dt, [&](int axis, const CellPlace& donor, int sign, double swept, double offset) {
+        const auto slope = [&](int n) { return at(slopes, (first + n) * D + axis, donor); };
+        const double density = at(carried, first, donor), through = swept * (density + slope(State::mass) * offset);
+        at(next, first, c.place) += sign * through;
+        for (int n = State::mass + 1; n < State::count(D); ++n)
+          at(next, first + n, c.place) +=
+              sign * (through * at(carried, first + n, donor) + swept * density * slope(n) * offset);
+      });
+      mass += at(next, first, c.place);
+    }
+    return mass > 0.0;
+  });
+  if (!all_have_mass) return Outcome::rejected;
+  if (!all_own_cells(cells, domain, [&](const Cell& c) { return find_equilibrium(gas, next, lattice, c, q); }))
     return Outcome::rejected;
-  }
+  std::swap(gas.classic->state, next);
   return Outcome::done;
 }
 

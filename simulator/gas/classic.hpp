@@ -4,8 +4,8 @@
 // energy; a drag that knows no bounds makes the velocities one. Energy is not conserved, and strong shocks do not converge:
 // that is what it is here to show.
 //
-// Limits: straight geometries, walls and periodic sides, one process, no gravity, viscosity or conduction. What sweeps out of a
-// cell is taken along the axis of the face, without the offset across it.
+// Limits: straight geometries, walls and periodic sides, no gravity, viscosity or conduction. What sweeps out of a cell is
+// taken along the axis of the face, without the offset across it.
 
 #include <string>
 #include <vector>
@@ -36,9 +36,9 @@ ClassicDemands demands_of(const AnyGas& gas, Geometry geometry, const Vector& gr
 /// Why the classic scheme cannot do it, each with what to do; empty if it can.
 std::vector<std::string> classic_limits(const ClassicDemands& demands);
 /// Takes the state of the classic scheme from what the gas is filled with. Throws std::runtime_error with classic_limits.
-void open_classic(Gas& gas, const Domain& domain);
+void open_classic(Gas& gas);
 /// Contents and primitives as the classic state has them: for output and books.
-void show_classic(Gas& gas);
-Outcome advance_classic(Gas& gas, double dt);
+void show_classic(Gas& gas, Domain& domain);
+Outcome advance_classic(Gas& gas, double dt, Domain& domain);
 
 }  // namespace brisance::simulator::gas

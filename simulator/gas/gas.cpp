@@ -119,14 +119,14 @@ void fill_in_portions(Gas& gas, const PortionsFunction& portions, Domain& domain
   });
   if (gas.implicit) open_implicit(gas, domain);
   place_bodies(gas, domain);
-  if (gas.classic) open_classic(gas, domain);
+  if (gas.classic) open_classic(gas);
   begin(gas, domain);
   gas.initial = totals(gas, domain);
   watch_ranges(gas);
 }
 
 void begin(Gas& gas, Domain& domain) {
-  if (gas.classic) return timed(gas, Phase::classic, [&] { show_classic(gas); });
+  if (gas.classic) return timed(gas, Phase::classic, [&] { show_classic(gas, domain); });
   timed(gas, Phase::equilibrium, [&] { find_equilibrium(gas); });
   gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
   timed(gas, Phase::ghosts, [&] { share_primitives(gas, gas.time, domain); });
@@ -149,7 +149,8 @@ namespace {
 Outcome advance_fluids(Gas& gas, double dt, Domain& domain) {
   clear_step(gas.passages);
   if (gas.classic) {
-    if (timed(gas, Phase::classic, [&] { return advance_classic(gas, dt); }) == Outcome::rejected) return Outcome::rejected;
+    if (timed(gas, Phase::classic, [&] { return advance_classic(gas, dt, domain); }) == Outcome::rejected)
+      return Outcome::rejected;
     book_step(gas.passages);
     gas.time += dt, ++gas.step;
     begin(gas, domain);
@@ -171,10 +172,9 @@ Outcome advance_fluids(Gas& gas, double dt, Domain& domain) {
     gas.careful = true;
   }
   if (gas.careful) gas.plain += forget_plain_cells(gas);
-  timed(gas, Phase::ghosts, [&] {
-    with_bodies ? settle_with_bodies(gas, dt, domain) : settle(gas);
-    book_step(gas.passages);
-  });
+  timed(gas, Phase::ghosts, [&] { with_bodies ? settle_with_bodies(gas, dt, domain) : settle(gas); });
+  if (with_bodies) timed(gas, Phase::reaction, [&] { react_around_bodies(gas, dt); });
+  timed(gas, Phase::ghosts, [&] { book_step(gas.passages); });
   gas.time += dt, ++gas.step;
   begin(gas, domain);
   return Outcome::done;
@@ -271,16 +271,25 @@ std::vector<Totals> burned(const Gas& gas, Domain& domain) {
 
 std::size_t Gas::bytes() const {
   std::size_t sum = swept.capacity() * sizeof(Lanes) + face_laws.capacity() * sizeof(FaceLaw) + bytes_of(bodies);
-  if (classic) {
-    for (const std::vector<double>* values : {&classic->mass, &classic->volume, &classic->internal})
-      sum += values->capacity() * sizeof(double);
-    sum += classic->momentum.capacity() * sizeof(Vector);
-  }
+  if (classic) sum += classic->state.bytes();
   for (const CellSet* set : {&content, &moved, &next, &marks, &primitive, &half_step, &transport, &unknown, &burning_area,
                              &filtered, &filtering, &released})
     sum += set->bytes();
   return sum;
 }
+
+namespace {
+
+/// The fields that a checkpoint keeps. The pressures as well: to find them once more from the contents would change last
+/// digits.
+template <class AnyGas>
+auto kept_sets(AnyGas& gas) {
+  std::vector sets{&gas.content, &gas.primitive};
+  if (gas.classic) sets.push_back(&gas.classic->state);
+  return sets;
+}
+
+}  // namespace
 
 std::vector<double> numbers_of(const Gas& gas) {
   std::vector<double> numbers{gas.time,
@@ -291,18 +300,11 @@ std::vector<double> numbers_of(const Gas& gas) {
                               static_cast<double>(gas.cells.mine.size()),
                               static_cast<double>(gas.contents()),
                               static_cast<double>(gas.plain)};
-  // The pressures as well: to find them once more from the contents would change last digits.
-  for (const CellSet* set : {&gas.content, &gas.primitive})
+  for (const CellSet* set : kept_sets(gas))
     for (const std::int32_t b : gas.cells.mine) {
       const double* first = reinterpret_cast<const double*>(set->at(static_cast<std::size_t>(b), 0));
       numbers.insert(numbers.end(), first, first + set->quantities() * set->packs() * 8);
     }
-  if (gas.classic) {
-    const ClassicState& s = *gas.classic;
-    for (const std::vector<double>* values : {&s.mass, &s.volume, &s.internal})
-      numbers.insert(numbers.end(), values->begin(), values->end());
-    for (const Vector& momentum : s.momentum) numbers.insert(numbers.end(), momentum.begin(), momentum.end());
-  }
   for (const Passage& p : gas.passages) {
     const auto keep = [&](const CompensatedSum& sum) {
       const double* first = reinterpret_cast<const double*>(&sum);
@@ -329,19 +331,12 @@ void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
   gas.time = next[0], gas.step = static_cast<std::int64_t>(next[1]), gas.wave_rate = next[2], gas.motion_rate = next[3];
   gas.flattened = static_cast<std::int64_t>(next[4]), gas.plain = static_cast<std::int64_t>(next[7]);
   next += 8;
-  for (CellSet* set : {&gas.content, &gas.primitive})
+  for (CellSet* set : kept_sets(gas))
     for (const std::int32_t b : gas.cells.mine) {
       const int count = set->quantities() * set->packs() * 8;
       std::copy_n(next, count, reinterpret_cast<double*>(set->at(static_cast<std::size_t>(b), 0)));
       next += count;
     }
-  if (gas.classic) {
-    ClassicState& s = *gas.classic;
-    for (std::vector<double>* values : {&s.mass, &s.volume, &s.internal})
-      for (double& value : *values) value = *next++;
-    for (Vector& momentum : s.momentum)
-      for (double& component : momentum) component = *next++;
-  }
   for (Passage& p : gas.passages) {
     const auto take = [&](CompensatedSum& sum) {
       static_assert(std::is_trivially_copyable_v<CompensatedSum>);

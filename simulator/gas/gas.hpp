@@ -130,9 +130,12 @@ struct FaceLaw {
 
 /// What the classic scheme keeps instead of the contents: each fluid has a velocity of its own. See classic.hpp.
 struct ClassicState {
-  double momentum_exchange = 1e15;             // kg/(m^3 s)
-  std::vector<double> mass, volume, internal;  // kg, m^3, J: [fluid][cell]
-  std::vector<Vector> momentum;                // kg m/s
+  static constexpr int mass = 0, volume = 1, internal = 2,
+                       momentum = 3;  // kg, m^3, J, kg m/s in as many components as dimensions
+  static constexpr int count(int dimensions) { return momentum + dimensions; }
+  static constexpr int of(int dimensions, int fluid, int quantity) { return fluid * count(dimensions) + quantity; }
+  double momentum_exchange = 1e15;  // kg/(m^3 s)
+  CellSet state;
 };
 
 /// When a fluid was denser or thinner than its equation of state declares: see range_watch.hpp.

@@ -1,5 +1,6 @@
 #include "simulator/gas/gas_setup.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulator/gas/bodies_setup.hpp"
@@ -10,6 +11,17 @@ namespace {
 
 std::string name_of(std::size_t side) {
   return std::string(choices<BoxSide>[side]);
+}
+
+/// The part of each cell of the box that bodies leave to a gas which is not filled yet; every rank finds it for all cells.
+OpenParts open_parts(Gas gas) {
+  const auto domain = single_process();
+  gas.cells = make_cells(gas.cells.geometry, gas.cells.cell_size, gas.cells.lower, gas.cells.upper, *domain);
+  place_bodies(gas, *domain);
+  return [gas = std::move(gas)](const std::array<int, 3>& cell) {
+    const CellPlace place = gas.cells.find(cell).value();
+    return open_part(gas, place.block, place.cell);
+  };
 }
 
 }  // namespace
@@ -52,7 +64,8 @@ Gas make_gas(const Case& c, Domain& domain) {
     gas.burns.push_back(std::move(burn));
   }
   for (const GasBodyConfig& body : config.bodies) gas.bodies.all.push_back(make_body(c, body));
-  const InitialState start(config, gas.fluids, gas.cells);
+  const bool asked = std::any_of(config.fills.begin(), config.fills.end(), [](const FillConfig& f) { return f.energy; });
+  const InitialState start(config, gas.fluids, gas.cells, asked && !gas.bodies.empty() ? open_parts(gas) : OpenParts{});
   fill_in_portions(
       gas, [&](const Vector& middle) { return start.in_cell(middle); }, domain);
   return gas;

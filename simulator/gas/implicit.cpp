@@ -1,10 +1,8 @@
 #include "simulator/gas/implicit.hpp"
 
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
 #include <algorithm>
-#include <stdexcept>
 
+#include "simulator/domain/message.hpp"
 #include "simulator/gas/acoustic.hpp"
 #include "simulator/gas/ghosts.hpp"
 #include "simulator/gas/passages.hpp"
@@ -14,9 +12,6 @@ namespace brisance::simulator::gas {
 namespace {
 
 constexpr double solver_tolerance = 1e-9;  // residual over right side
-
-using Entry = Eigen::Triplet<double, int>;
-using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
 /// Where in the step the pressures are: in the middle, and a little later in steps so long that sound is not resolved, for then
 /// nothing else would make it fade.
@@ -89,11 +84,11 @@ void find_laws(Gas& gas, std::size_t block, double dt) {
             law = {Lanes(0.0), Lanes(0.0)};
             break;
           case EdgeKind::inflow:
-            law = {s.velocity[outside], Lanes(0.0)};
+          case EdgeKind::non_reflecting: {  // what the pressure inside has beyond that outside is that of an outgoing wave
+            const LanesMask leaves_room = sign * s.velocity[outside] < s.sound[inside];  // for waves: slower than they
+            law = {s.velocity[outside], select(leaves_room, 1.0 / (s.density[inside] * s.sound[inside]), Lanes(0.0))};
             break;
-          case EdgeKind::non_reflecting:  // the pressure inside is that of an outgoing wave
-            law = {s.velocity[outside], 1.0 / (s.density[inside] * s.sound[inside])};
-            break;
+          }
           case EdgeKind::pressure:
           case EdgeKind::periodic:
             return;
@@ -109,7 +104,14 @@ void find_laws(Gas& gas, std::size_t block, double dt) {
 
 /// The rows of a block's cells.
 template <int D>
-void assemble(const Gas& gas, std::size_t block, double dt, std::vector<Entry>& entries, Eigen::VectorXd& right_side) {
+SystemRows rows_of(const Gas& gas, std::size_t block, double dt) {
+  SystemRows rows;
+  int first = -1;
+  for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
+    if (!gas.cells.contains(gas.cells.index(block, c))) continue;
+    if (first < 0) first = static_cast<int>(gas.unknown.cell(block, 0, c));
+    rows.right_side.push_back(0.0);
+  }
   const double weight = centring(gas, dt) * dt;
   for (int axis = 0; axis < D; ++axis)
     for (int n = 0; n < BlockShape<D>::pencils; ++n) {
@@ -139,29 +141,41 @@ void assemble(const Gas& gas, std::size_t block, double dt, std::vector<Entry>& 
           const auto neighbour = [&](std::size_t cell, double coefficient) {
             const int column = static_cast<int>(unknown[cell][l]);
             if (column >= 0)
-              entries.emplace_back(row, column, -coefficient);
+              rows.entries.push_back({row, column, -coefficient});
             else
               known += coefficient * change[cell][l];
           };
           neighbour(c - 1, conductance[f][l]), neighbour(c + 1, conductance[f + 1][l]);
-          entries.emplace_back(row, row, diagonal);
-          right_side[row] += known;
+          rows.entries.push_back({row, row, diagonal});
+          rows.right_side[static_cast<std::size_t>(row - first)] += known;
         }
       }
     }
+  return rows;
 }
 
 }  // namespace
 
-void open_implicit(Gas& gas, const Domain& domain) {
-  if (domain.size() > 1) throw std::runtime_error("gas.implicit: the pressure is solved for in one process only");
+void open_implicit(Gas& gas, Domain& domain) {
   gas.face_laws.resize(gas.swept.size());
   gas.unknown = CellSet(1, gas.cells.packs());
   gas.unknown.resize(gas.cells.blocks.size());
-  double next = 0.0;
+  const auto for_each_cell = [&](auto&& f) {
+    for (const std::int32_t b : gas.cells.mine)
+      for (int c = 0; c < 8 * gas.cells.packs(); ++c)
+        if (gas.cells.contains(gas.cells.index(static_cast<std::size_t>(b), c))) f(static_cast<std::size_t>(b), c);
+  };
+  std::int64_t mine = 0, next = 0;
+  for_each_cell([&](std::size_t, int) { ++mine; });
+  Message count;
+  append(count, mine);
+  const std::vector<Message> counts = all_gather(domain, count);
+  for (std::size_t r = 0; r < static_cast<std::size_t>(domain.rank()); ++r)
+    next += MessageReader(counts[r]).read<std::int64_t>();
   for (std::size_t block = 0; block < gas.cells.blocks.size(); ++block)
-    for (int c = 0; c < 8 * gas.cells.packs(); ++c)
-      gas.unknown.cell(block, 0, c) = gas.cells.contains(gas.cells.index(block, c)) ? next++ : -1.0;
+    std::fill_n(gas.unknown.at(block, 0), gas.cells.packs(), Lanes(-1.0));
+  for_each_cell([&](std::size_t block, int c) { gas.unknown.cell(block, 0, c) = static_cast<double>(next++); });
+  share(gas.cells, gas.unknown, domain);
   for (std::size_t s = 0; s < gas.cells.sides.size(); ++s)
     if (gas.edges[s].kind == EdgeKind::periodic)
       for (const Ghost& g : gas.cells.sides[s].wrapped)
@@ -181,31 +195,26 @@ bool solve_pressure(Gas& gas, double dt, Domain& domain) {
       std::fill_n(gas.half_step.at(static_cast<std::size_t>(b), q), gas.cells.packs(), Lanes(0.0));
   share_half_step(gas, dt, domain);  // what lies beyond the edges
 
-  const auto cells = static_cast<Eigen::Index>(gas.cells.count());
-  std::vector<std::vector<Entry>> entries(mine.size());
-  Eigen::VectorXd right_side = Eigen::VectorXd::Zero(cells);
+  std::vector<SystemRows> of_blocks(mine.size());
   in_dimensions([&](auto D) {
     parallel_for_blocks(mine.size(), [&](std::size_t i) {
       const auto block = static_cast<std::size_t>(mine[i]);
       find_laws<D()>(gas, block, dt);
-      assemble<D()>(gas, block, dt, entries[i], right_side);
+      of_blocks[i] = rows_of<D()>(gas, block, dt);
     });
   });
-  std::vector<Entry> all;
-  for (const auto& of_block : entries) all.insert(all.end(), of_block.begin(), of_block.end());
-  Matrix matrix(cells, cells);
-  matrix.setFromTriplets(all.begin(), all.end());
-  Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> solver;
-  solver.setTolerance(solver_tolerance);
-  solver.compute(matrix);
-  const Eigen::VectorXd change = solver.solve(right_side);
-  if (solver.info() != Eigen::Success) return false;
+  SystemRows rows;
+  for (const SystemRows& of_block : of_blocks) {
+    rows.entries.insert(rows.entries.end(), of_block.entries.begin(), of_block.entries.end());
+    rows.right_side.insert(rows.right_side.end(), of_block.right_side.begin(), of_block.right_side.end());
+  }
+  const std::optional<std::vector<double>> change = domain.solve_spd(rows, solver_tolerance);
+  if (!change) return false;
+  auto next = change->begin();
   for (const std::int32_t b : mine) {
     const auto block = static_cast<std::size_t>(b);
-    for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
-      const auto number = static_cast<Eigen::Index>(gas.unknown.cell(block, 0, c));
-      if (number >= 0) gas.half_step.cell(block, HalfStep::pressure, c) = change[number];
-    }
+    for (int c = 0; c < 8 * gas.cells.packs(); ++c)
+      if (gas.cells.contains(gas.cells.index(block, c))) gas.half_step.cell(block, HalfStep::pressure, c) = *next++;
   }
   return true;
 }

@@ -13,8 +13,8 @@
 
 namespace brisance::simulator::gas {
 
-/// Room for the solve, after the cells have been filled. Throws std::runtime_error in more than one process.
-void open_implicit(Gas& gas, const Domain& domain);
+/// Room for the solve, after the cells have been filled.
+void open_implicit(Gas& gas, Domain& domain);
 
 /// Puts pi - p (Pa) of a step of dt (s) into the half step's pressure; false if the iteration does not converge.
 bool solve_pressure(Gas& gas, double dt, Domain& domain);

@@ -159,7 +159,8 @@ double interpolate(const std::vector<double>& place, const std::vector<double>& 
   return std::lerp(column[above - 1], column[above], (x - place[above - 1]) / (place[above] - place[above - 1]));
 }
 
-InitialState::InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells) : cells_(&cells) {
+InitialState::InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells, OpenParts open)
+    : cells_(&cells), open_(std::move(open)) {
   for (const FillConfig& fill : config.fills) {
     Fill made{&fill, filling_of(config, fluids, fill), {}, {-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
     made.fluid = &fluids[static_cast<std::size_t>(made.filling.fluid)];
@@ -307,7 +308,8 @@ double InitialState::volume_of(std::size_t fill) const {
           whole += volume;
           if (here == static_cast<int>(fill)) part += volume;
         });
-        const double volume = cells.metric.volume[static_cast<std::size_t>(i - cells.metric.first)];
+        const double whole_cell = cells.metric.volume[static_cast<std::size_t>(i - cells.metric.first)];
+        const double volume = open_ ? open_(index) * whole_cell : whole_cell;
         sum += all >= 0 ? (all == static_cast<int>(fill) ? volume : 0.0) : volume * (part / whole);
       }
   return sum;

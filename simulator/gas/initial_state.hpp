@@ -30,10 +30,13 @@ constexpr int places_per_direction(int dimensions) {
 /// Whether formulas say of it what it is.
 bool varies(const GasStateConfig& state);
 
+/// The part of a cell of the box that bodies leave to the gas; none: all.
+using OpenParts = std::function<double(const std::array<int, 3>& cell)>;
+
 class InitialState {
  public:
   /// Throws std::runtime_error when a fill with an energy holds none of the box.
-  InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells);
+  InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells, OpenParts open = {});
 
   /// What a cell of the box holds, by the position of its middle. A cell in one state is one portion of part 1.
   std::vector<Portion> in_cell(const Vector& middle) const;
@@ -57,6 +60,7 @@ class InitialState {
 
   std::vector<Fill> fills_;
   const Cells* cells_;
+  OpenParts open_;
 };
 
 /// Which of the fluids has a name.

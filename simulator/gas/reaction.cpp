@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "models/equation_of_state/thermodynamics.hpp"
+#include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/gas.hpp"
 #include "simulator/gas/ghosts.hpp"
 #include "simulator/parallel.hpp"
@@ -18,10 +19,6 @@ namespace {
 constexpr double most_of_a_cell = 0.2;
 /// The last of a cell's reactant burns at once: laws whose rate falls with what is left never come to an end.
 constexpr double least_unburned = 1e-6;
-
-constexpr bool has_surface(const Reaction& law) {
-  return std::visit([](const auto& l) { return l.kind == reaction::Kind::surface; }, law);
-}
 
 // Burning area ---------------------------------------------------------------------------------------------------------
 
@@ -209,8 +206,8 @@ struct Released {
   static constexpr int count(int dimensions) { return momentum + dimensions; }
 };
 
-/// Lets one block burn. Returns in how many cells the step was too long for the reaction.
-std::int64_t burn_block(Gas& gas, std::size_t number, std::size_t block, double dt) {
+/// Lets what one block holds burn. Returns in how many cells the step was too long for the reaction.
+std::int64_t burn_block(Gas& gas, CellSet& held, std::size_t number, std::size_t block, double dt) {
   const Burn& burn = gas.burns[number];
   const int D = gas.dimensions();
   const int from = Content::fluids(D) + 3 * burn.reactant, into = Content::fluids(D) + 3 * burn.product;
@@ -218,7 +215,7 @@ std::int64_t burn_block(Gas& gas, std::size_t number, std::size_t block, double 
   const double heat = std::visit([](const auto& law) { return law.heat(); }, burn.law);
   const bool surface = has_surface(burn.law);
   auto& book = gas.passages[static_cast<std::size_t>(gas.book_of_burn[block * gas.burns.size() + number])].step;
-  const auto at = [&](int quantity, int k) -> Lanes& { return gas.moved.at(block, quantity)[k]; };
+  const auto at = [&](int quantity, int k) -> Lanes& { return held.at(block, quantity)[k]; };
   const auto set_free = [&](int quantity, int k) -> Lanes& { return gas.filtered.at(block, quantity)[k]; };
   std::int64_t capped = 0;
   for (int k = 0; k < gas.cells.packs(); ++k) {
@@ -226,7 +223,8 @@ std::int64_t burn_block(Gas& gas, std::size_t number, std::size_t block, double 
     const std::uint8_t inside = cells_inside(gas.cells, block, k);
     Lanes &mass = at(from + Content::mass, k), &volume = at(from + Content::volume, k);
     Lanes& internal = at(from + Content::internal, k);
-    const LanesMask present = lanes_of(inside) & (mass > 0.0) & (volume > 0.0);
+    const Lanes open = gas.bodies.empty() ? Lanes(1.0) : gas.bodies.open.at(block, 0)[k];
+    const LanesMask present = lanes_of(inside) & (mass > 0.0) & (volume > 0.0) & (open > 0.0);
     if (none(present)) continue;
     Lanes& product = at(into + Content::mass, k);
     const Reactant what{gas, burn, block, k, mass, mass + product};
@@ -270,9 +268,9 @@ std::int64_t burn_block(Gas& gas, std::size_t number, std::size_t block, double 
     for (int l = 0; l < 8; ++l) {
       if (!burns[l]) continue;
       capped += too_much[l] ? 1 : 0;
-      book.mass[static_cast<std::size_t>(burn.reactant)] -= burned[l];
-      if (!surface) book.mass[static_cast<std::size_t>(burn.product)] += burned[l];
-      book.energy += heat_free[l];
+      book.mass[static_cast<std::size_t>(burn.reactant)] -= open[l] * burned[l];
+      if (!surface) book.mass[static_cast<std::size_t>(burn.product)] += open[l] * burned[l];
+      book.energy += open[l] * heat_free[l];
     }
   }
   return capped;
@@ -337,13 +335,27 @@ void prepare_burns(Gas& gas) {
   for (CellSet* set : {&gas.burning_area, &gas.filtered, &gas.filtering, &gas.released}) set->resize(gas.cells.blocks.size());
 }
 
-void burn_cells(Gas& gas, std::size_t number, double dt, Domain& domain) {
+namespace {
+
+void burn_blocks(Gas& gas, CellSet& held, std::size_t number, double dt) {
   std::vector<std::int64_t> capped(gas.cells.mine.size());
   parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
-    capped[i] = burn_block(gas, number, static_cast<std::size_t>(gas.cells.mine[i]), dt);
+    capped[i] = burn_block(gas, held, number, static_cast<std::size_t>(gas.cells.mine[i]), dt);
   });
   gas.capped = std::accumulate(capped.begin(), capped.end(), gas.capped);
+}
+
+}  // namespace
+
+void burn_cells(Gas& gas, std::size_t number, double dt, Domain& domain) {
+  burn_blocks(gas, gas.moved, number, dt);
   if (has_surface(gas.burns[number].law)) release(gas, number, domain);
+}
+
+void react_around_bodies(Gas& gas, double dt) {
+  if (gas.burns.empty()) return;
+  find_equilibrium(gas);
+  for (std::size_t number = 0; number < gas.burns.size(); ++number) burn_blocks(gas, gas.content, number, dt);
 }
 
 void react(Gas& gas, double dt, Domain& domain) {

@@ -10,6 +10,11 @@
 
 namespace brisance::simulator::gas {
 
+/// Whether it burns at the surface of the reactant, not in all of it.
+inline bool has_surface(const Reaction& law) {
+  return std::visit([](const auto& l) { return l.kind == reaction::Kind::surface; }, law);
+}
+
 /// From a place to a region, m, 0 inside; none of shapes other than boxes, spheres and unions of them.
 std::optional<double> distance(const Shape& region, const Vector& place);
 
@@ -18,6 +23,9 @@ void prepare_burns(Gas& gas);
 /// Lets the cells burn for a step of dt (s), between its Lagrangian phase and its remap: what burns is then still in the cell
 /// whose pressure is known.
 void react(Gas& gas, double dt, Domain& domain);
+/// The same of bulk reactions around bodies, after the step and before its time is booked: of what the cells hold then, at its
+/// pressure, for the remap of a step with bodies leaves no cell to burn in between.
+void react_around_bodies(Gas& gas, double dt);
 /// The same of one reaction, of a surface as large as gas.burning_area says.
 void burn_cells(Gas& gas, std::size_t number, double dt, Domain& domain);
 

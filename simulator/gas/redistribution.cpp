@@ -115,10 +115,11 @@ void find_neighbourhoods(const Window& w, const Cells& cells, const OpenSpace& b
   all.shared.erase(std::unique(all.shared.begin(), all.shared.end()), all.shared.end());
 }
 
-std::vector<double> redistribute(const Window& w, const Neighbourhoods& all, const std::vector<double>& volume,
-                                 std::vector<double>& density, const std::vector<double>& covered) {
+std::vector<NeighbourhoodMean> redistribute(const Window& w, const Neighbourhoods& all, const std::vector<double>& volume,
+                                            std::vector<double>& density, const std::vector<double>& covered,
+                                            const SlopeAt& slope) {
   // Means are taken of differences to one of the members: what is the same in all of them stays so to the last bit.
-  std::vector<double> mean(all.small.size());
+  std::vector<NeighbourhoodMean> mean(all.small.size());
   for (std::size_t i = 0; i < all.small.size(); ++i) {
     const Neighbourhood& n = all.small[i];
     const std::array<std::size_t, 8>& member = n.members;
@@ -133,7 +134,15 @@ std::vector<double> redistribute(const Window& w, const Neighbourhoods& all, con
       else
         sum += part * covered[cell];
     }
-    mean[i] = room > 0.0 ? base + sum / room : base;
+    mean[i].value = room > 0.0 ? base + sum / room : base;
+    if (!slope || !(room > 0.0)) continue;
+    for (int m = n.count; m-- > 0;) {
+      const std::size_t cell = member[static_cast<std::size_t>(m)];
+      if (!(volume[cell] > 0.0)) continue;
+      mean[i].slope = slope(cell);
+      const std::array<int, 3> index = w.index(cell);
+      for (std::size_t a = 0; a < 3; ++a) mean[i].middle[a] += volume[cell] / all.overlaps[cell] / room * index[a];
+    }
   }
   // A cell takes the mean of the neighbourhoods that it is in, those of the cells around it in order.
   std::vector<double> now(all.shared.size());
@@ -153,7 +162,7 @@ std::vector<double> redistribute(const Window& w, const Neighbourhoods& all, con
       const Neighbourhood& n = all.small[static_cast<std::size_t>(number)];
       bool in = false;
       for (int m = 0; m < n.count; ++m) in = in || n.members[static_cast<std::size_t>(m)] == cell;
-      if (in) change += mean[static_cast<std::size_t>(number)] - density[cell];
+      if (in) change += mean[static_cast<std::size_t>(number)].at(index) - density[cell];
     });
     now[k] = density[cell] + change / all.overlaps[cell];
   }

@@ -414,7 +414,6 @@ TEST(CaseReader, RefusesMotionsThatABodyInTheGasCannotMake) {
     round.replace(round.find(from), from.size(), to);
   expect(problems_of(round), "gas.body.0.velocity: about an axis of symmetry a body can only move along it");
   expect(problems_of(round), "gas.body.0.rotation: about an axis of symmetry a body cannot turn");
-  expect(changed("end_time", "gravity = [0, -9.81]\nend_time"), "gravity in a gas with bodies");
   expect(changed("[gas]", "[gas]\nimplicit = true"), "the implicit option in a gas with bodies");
   expect(changed("[gas]", "[gas]\nscheme = \"ice_classic\""), "the classic scheme in a gas with bodies");
   expect(changed("\"air.toml\"", "\"air.toml\"\nviscosity = \"1 Pa s\""), "viscosity or conduction in a gas with bodies");

@@ -220,7 +220,7 @@ TEST(MemoryOfTheGas, CountsBodiesAndTheClassicState) {
         return Filling{0, 1.2, 1e5, {}};
       },
       *domain);
-  EXPECT_GE(classic.bytes(), alone.bytes() + cells * 6 * sizeof(double)) << "mass, volume, energy, three of momentum";
+  EXPECT_GE(classic.bytes(), alone.bytes() + cells * 5 * sizeof(double)) << "mass, volume, energy, two of momentum";
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ bool straight(Geometry geometry, int axis) {
   return axis > 0 || geometry == Geometry::planar_1d || geometry == Geometry::plane || geometry == Geometry::three_dimensional;
 }
 
+enum class Scheme { waves, implicit, classic };
+
 /// A box of a size that is no multiple of a block's: hot air in one part of it, air that streams in another, water in a third.
 struct Problem {
   std::string name;
@@ -39,6 +41,7 @@ struct Problem {
   std::array<int, 3> lower, upper;
   std::size_t fluids = 2;
   std::vector<Edge> edges = {};  // walls
+  Scheme scheme = Scheme::waves;
 
   static constexpr double cell_size = 0.01;
 
@@ -46,6 +49,8 @@ struct Problem {
     Gas gas = set_up::box(geometry, cell_size, lower, upper, air_and_water, domain);
     gas.fluids.resize(fluids);
     if (!edges.empty()) gas.edges = edges;
+    gas.implicit = scheme == Scheme::implicit;
+    if (scheme == Scheme::classic) gas.classic.emplace();
     fill(
         gas, [this](const Vector& x, double) { return start(x); }, domain);
     return gas;
@@ -270,12 +275,21 @@ struct Outcomes {
   std::int64_t flattened = 0;
 };
 
-Outcomes after_steps(const Problem& problem, int ranks) {
+enum class Way { whole, restarted };
+
+Outcomes after_steps(const Problem& problem, int ranks, Way way = Way::whole) {
   Outcomes result;
   std::mutex one_at_a_time;
   VirtualRanks::run(ranks, [&](std::shared_ptr<Domain> domain) {
     Gas gas = problem.filled(*domain);
-    Stepper().steps(gas, 20, *domain);
+    constexpr int before_restart = 8, all_steps = 20;
+    Stepper().steps(gas, before_restart, *domain);
+    if (way == Way::restarted) {
+      const std::vector<double> numbers = numbers_of(gas);
+      gas = problem.filled(*domain);
+      restore(gas, numbers, *domain);
+    }
+    Stepper().steps(gas, all_steps - before_restart, *domain);
     const Totals all = totals(gas, *domain);
     const std::lock_guard lock(one_at_a_time);
     add_state(gas, result.state);
@@ -312,6 +326,18 @@ std::vector<Problem> problems_for_ranks() {
     problem.edges.resize(static_cast<std::size_t>(2 * number_of_dimensions(problem.geometry)));
     all.push_back(problem);
   }
+  const std::size_t of_waves = all.size();
+  for (std::size_t n = 0; n < of_waves; ++n) {
+    Problem problem = all[n];
+    if (problem.fluids == 1) continue;
+    problem.scheme = Scheme::implicit, problem.name += ", implicit";
+    all.push_back(problem);
+    if (!straight(problem.geometry, 0)) continue;
+    problem.scheme = Scheme::classic, problem.name = all[n].name + ", classic";
+    for (Edge& edge : problem.edges)
+      if (edge.kind != EdgeKind::periodic) edge = set_up::wall();
+    all.push_back(problem);
+  }
   return all;
 }
 
@@ -320,6 +346,7 @@ TEST(SameBits, ForAnyNumberOfRanks) {
     const Outcomes one = after_steps(problem, 1);
     for (const int ranks : {2, 3, 5})
       expect_same(one, after_steps(problem, ranks), problem.name + ", ranks " + std::to_string(ranks));
+    expect_same(one, after_steps(problem, 3, Way::restarted), problem.name + ", restarted on 3 ranks");
   }
 }
 

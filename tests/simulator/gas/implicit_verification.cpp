@@ -9,7 +9,6 @@
 
 #include "tests/simulator/gas/exact_riemann.hpp"
 #include "tests/simulator/gas/slow_flow.hpp"
-#include "tests/simulator/virtual_ranks.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -127,6 +126,32 @@ TEST(ImplicitSod, WithShortStepsIsAsGoodAsTheWaves) {
   EXPECT_LT(energy_change, 1e-13);
 }
 
+/// Noh's implosion in a quarter of the plane, in steps as short as those of waves. Rows along which the shock runs are held
+/// together as they are there: without friction the density behind it varies by 3.0 %, and in steps of waves by 1.9 %.
+TEST(ImplicitNoh, HasAnEvenPlateauInShortSteps) {
+  constexpr int cells = 40;
+  constexpr double size = 0.24, end = 0.6;
+  const auto state = [](const Vector& x, double t) {
+    const double r = std::hypot(x[0], x[1]), density = 1.0 + t / r;
+    return Filling{0, density, 1e-6 * std::pow(density, 5.0 / 3.0), {-x[0] / r, -x[1] / r, 0.0}};
+  };
+  const auto domain = single_process();
+  Gas gas = implicit_box(Geometry::plane, size / cells, {}, {cells, cells, 0}, {set_up::ideal_gas(5.0 / 3.0)}, 0.5, *domain);
+  for (const std::size_t side : {1, 3}) gas.edges[side] = set_up::beyond(EdgeKind::inflow, state);
+  fill(gas, state, *domain);
+  Stepper().to(gas, end, *domain);
+  double sum = 0.0, squares = 0.0;
+  int count = 0;
+  set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
+    if (magnitude(c.centre) < 0.1 || magnitude(c.centre) > 0.16) return;
+    sum += c.density, squares += c.density * c.density, ++count;
+  });
+  const double mean = sum / count, variation = std::sqrt(squares / count - mean * mean) / mean;
+  RecordProperty("plateau", std::to_string(mean) + ", " + std::to_string(variation));
+  EXPECT_NEAR(mean / 16.0, 1.0, 0.03);
+  EXPECT_LT(variation, 0.025);
+}
+
 // Books ----------------------------------------------------------------------------------------------------------------
 
 /// Warm air in cold water, at a higher pressure. What leaves a cell enters the next one, whatever the solver says.
@@ -209,19 +234,6 @@ TEST(ImplicitColumn, OfIsothermalGasStaysAtRest) {
       *domain);
   Stepper().steps(gas, 500, *domain);
   EXPECT_LT(fastest_over_sound(gas), 1e-10);
-}
-
-TEST(ImplicitBox, IsRefusedInSeveralProcesses) {
-  VirtualRanks::run(2, [](std::shared_ptr<Domain> domain) {
-    Gas gas = implicit_box(Geometry::planar_1d, 0.01, {}, {256, 0, 0}, {set_up::ideal_gas()}, 20.0, *domain);
-    EXPECT_THROW(fill(
-                     gas,
-                     [](const Vector&, double) {
-                       return Filling{0, 1.0, 1.0, {}};
-                     },
-                     *domain),
-                 std::runtime_error);
-  });
 }
 
 // Open sides -----------------------------------------------------------------------------------------------------------

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -121,7 +120,8 @@ TEST(OpenEnd, HasThePressureBeyondWhereTheGasLeavesSlowerThanSound) {
 TEST(Inflow, SendsHalfOfAPressureThatPulsesAloneIn) {
   constexpr double c = 1.1832159566199232, speed = 0.03, height = 1e-3, wave_length = 0.5, end = 0.75;
   constexpr double frequency = (c + speed) / wave_length;
-  for (const bool with_body : {false, true}) {
+  for (const std::string way : {"of waves", "of waves, with a body", "implicit"}) {
+    const bool with_body = way == "of waves, with a body", implicit = way == "implicit";
     double before = 0.0;
     for (const int cells : {100, 200}) {
       const double h = 1.0 / cells;
@@ -135,6 +135,7 @@ TEST(Inflow, SendsHalfOfAPressureThatPulsesAloneIn) {
       gas.edges[0].beyond = [=](const Vector&, double t) {
         return Filling{0, 1.0, 1.0 + 2.0 * height * std::sin(2.0 * std::numbers::pi * frequency * t), {speed, 0.0, 0.0}};
       };
+      gas.implicit = implicit, gas.acoustic_courant = 0.5;
       // It has to do with nothing, but makes the step that with bodies.
       if (with_body) gas.bodies.all = {set_up::ball(Geometry::plane, h, {0.5, 10.0, 0.0}, 3.0 * h, 0.0)};
       fill(
@@ -151,10 +152,11 @@ TEST(Inflow, SendsHalfOfAPressureThatPulsesAloneIn) {
       const double error = std::sqrt(squares / count) / height;
       // Of the height of the wave; of second order, but for the steepening of the wave itself, 0.2 %.
       constexpr double of_the_scheme = 0.02;
-      EXPECT_LT(error, of_the_scheme) << cells << (with_body ? " cells, with a body" : " cells");
-      std::printf("%d cells%s: %.4f\n", cells, with_body ? ", with a body" : "", error);
+      EXPECT_LT(error, of_the_scheme) << cells << " cells, steps " << way;
+      RecordProperty(way + ", " + std::to_string(cells), std::to_string(error));
+      // The solve knows the pressure in the middle of the last cell, not at its side: first order.
       if (cells > 100) {
-        EXPECT_LT(error, 0.5 * before);
+        EXPECT_LT(error, (implicit ? 0.7 : 0.5) * before);
       }
       before = error;
     }

@@ -18,9 +18,9 @@ fs::path shipped(const std::string& name) {
   return fs::path(BRISANCE_SOURCE_DIR) / "data/cases" / (name + ".toml");
 }
 
-std::string problems_of(const std::vector<std::string>& changes) {
+std::string problems_of(const std::vector<std::string>& changes, const std::string& name = "detonation_pbx_9501") {
   try {
-    read_case(shipped("detonation_pbx_9501"), changes);
+    read_case(shipped(name), changes);
     return "";
   } catch (const InputError& error) {
     std::string all;
@@ -57,6 +57,16 @@ TEST(ReactionCase, IsToldWhatIsWrongWithIt) {
   EXPECT_TRUE(contains(problems_of({key + "reactant=\"products\"", key + "product=\"explosive\""}), "has no [reaction] table"));
   EXPECT_TRUE(contains(problems_of({key + "ignition=[{time = 0.0}]"}), "burns by pressure alone"));
   EXPECT_TRUE(contains(problems_of({key + "rate=1"}), "unknown key"));
+  // In a plane, with a body.
+  const std::vector<std::string> with_body = {
+      "geometry=\"plane\"", "gas.lower=[0, 0]", "gas.upper=[\"100 mm\", \"100 mm\"]",
+      "gas.fill.1.shape={box = {lower = [0, 0], upper = [\"5 mm\", 1]}}",
+      "gas.body=[{name = \"plug\", shape = {box = {lower = [\"50 mm\", 0], upper = [1, \"50 mm\"]}}}]"};
+  EXPECT_TRUE(contains(problems_of(with_body, "closed_bomb"), "a reaction at a surface in a gas with bodies"));
+  std::vector<std::string> with_bulk = with_body;
+  with_bulk.insert(with_bulk.end(), {"gas.fill.1.velocity=[0, 0]", "gas.implicit=true"});
+  EXPECT_FALSE(contains(problems_of(with_bulk), "a reaction at a surface"));
+  EXPECT_TRUE(contains(problems_of(with_bulk), "the implicit option in a gas with bodies")) << "so far it was looked at";
   EXPECT_EQ(problems_of({}), "");
 }
 
