@@ -185,17 +185,17 @@ bool move(Gas& gas, std::size_t block, double dt) {
   if (gas.fluids.size() > 1) std::fill_n(heat_of_friction(gas).at(block, Content::energy), Shape::packs, Lanes(0.0));
   // Friction is explicit: implicit steps bear it where they are no longer than those of waves.
   constexpr double longest = 0.51;  // Courant number, and rounding
-  const bool resolves_sound = dt * gas.wave_rate <= longest;
+  const bool rubs = !gas.implicit || dt * gas.wave_rate <= longest;
   for (int axis = 0; axis < D; ++axis) {
     for (int n = 0; n < Shape::pencils; ++n) {
       FaceStates<D> states;
       FacePencil face_velocity, face_pressure, flow;  // flow: volume per time
-      if (!gas.implicit || resolves_sound) load_states<D>(gas, block, axis, n, states);
+      if (rubs) load_states<D>(gas, block, axis, n, states);
       if (gas.implicit)
         solved_faces<D>(gas, block, axis, n, dt, face_velocity, face_pressure);
       else
         acoustic_faces<D>(gas, block, axis, n, states, face_velocity, face_pressure);
-      for (std::size_t c = ring - 1; gas.implicit && resolves_sound && c <= ring + line; ++c)
+      for (std::size_t c = ring - 1; gas.implicit && rubs && c <= ring + line; ++c)
         states.stretch[c] = slope(states.velocity[axis], c);
       PencilMetric metric;
       load_metric<D>(cells, block, axis, n, metric);
@@ -221,7 +221,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
       store<D>(gas.moved, block, Content::energy, axis, n, energy);
       book_pressure(gas, block, axis, n, dt, face_pressure, flow, metric);
       if constexpr (D > 1)
-        if (!gas.implicit || resolves_sound) hold_rows_together<D>(gas, block, axis, n, dt, states, metric);
+        if (rubs) hold_rows_together<D>(gas, block, axis, n, dt, states, metric);
     }
   }
 
