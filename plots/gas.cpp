@@ -404,7 +404,9 @@ std::vector<Entry> entries() {
        {peak_density, 0.85 * 5.04, [](const Ran& ran) { return fronts(ran, 1.15, 1.0).peak; }, true},
        closed});
   add("sedov_three_dimensional", "density",
-      {{front_radius, reported, [](const Ran& ran) { return fronts(ran, 1.15, 1.0).mean; }},
+      {{"radius from 1, beyond half a cell and 0.3 %", 0.0,
+        [=](const Ran& ran) { return from_radius(fronts(ran, 1.15, 1.0).mean, ran.config.cell_size); }},
+       {front_radius, reported, [](const Ran& ran) { return fronts(ran, 1.15, 1.0).mean; }},
        round_front,
        {peak_density, reported, [](const Ran& ran) { return fronts(ran, 1.15, 1.0).peak; }},
        closed});

@@ -54,9 +54,11 @@ struct Formula::Parsers {
   double with_own(F&& f) {
     std::size_t n = std::hash<std::thread::id>{}(std::this_thread::get_id()) % slots.size();
     while (slots[n].in_use.test_and_set(std::memory_order_acquire)) n = (n + 1) % slots.size();
-    const double result = f(slots[n]);
-    slots[n].in_use.clear(std::memory_order_release);
-    return result;
+    struct Release {
+      std::atomic_flag& flag;
+      ~Release() { flag.clear(std::memory_order_release); }
+    } const release{slots[n].in_use};
+    return f(slots[n]);
   }
 };
 

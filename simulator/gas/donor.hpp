@@ -34,15 +34,16 @@ inline Lanes difference_across_donor(const LanesMask& up, const Lanes& before, c
                              half_bound);
 }
 
-/// 0 in shocks, 1 away from them, by the internal energies (J/m^3) and the velocities about a face: a shock is where the cells
-/// beside it approach each other and the energy changes by two to four tenths of the donor's from cell to cell. Contacts are
-/// none.
+/// 0 in shocks, 1 away from them, by the internal energies (J/m^3) about a face: a shock is where these change by two to four
+/// tenths of the donor's from cell to cell, and the cells beside the face approach each other: `approach`, density times the
+/// square of the velocity's jump (J/m^3; 0 where they part), is then more than a hundredth of that change. Contacts are none.
 inline Lanes away_from_shocks(const LanesMask& up, const Lanes& before, const Lanes& low, const Lanes& high, const Lanes& after,
-                              const LanesMask& closing) {
-  constexpr double least = 0.2, most = 0.4;
-  const Lanes largest = max(abs(high - low), max(abs(low - before), abs(after - high)));
-  const Lanes change = largest / abs(select(up, low, high));
-  return select(closing, min(max(Lanes((1.0 / (most - least)) * (most - change)), Lanes(0.0)), Lanes(1.0)), Lanes(1.0));
+                              const Lanes& approach) {
+  constexpr double least = 0.2, most = 0.4, least_approach = 0.01;
+  const Lanes largest = max(Lanes(max(abs(high - low), max(abs(low - before), abs(after - high)))), Lanes(1e-300));
+  const Lanes donor = max(Lanes(abs(select(up, low, high))), Lanes(1e-300));
+  const Lanes jump = min(max(Lanes((1.0 / (most - least)) * (largest / donor - least)), Lanes(0.0)), Lanes(1.0));
+  return 1.0 - jump * min(Lanes((1.0 / least_approach) * (approach / largest)), Lanes(1.0));
 }
 
 /// How a part of a cell's mass leaves with its momentum.

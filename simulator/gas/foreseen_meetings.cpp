@@ -141,7 +141,8 @@ class Approach {
   void look(const std::vector<Vector>& one, const std::vector<Vector>& other, double time) {
     if (touches_ || touched_at_start_) return;
     const double distance = distance_of(one, other);
-    // Particles of bodies that lie flush are a width apart; those of bodies that overlap come closer, wherever they lie.
+    // Particles of bodies that lie flush are a width apart (half of that of each); those of bodies that overlap come closer,
+    // wherever they lie.
     constexpr double flush = 1.0 - 1e-6, overlapping = 0.75;
     if (distance >= flush * width_) {
       apart_ = time;
@@ -191,6 +192,7 @@ class Approach {
 /// The bodies that meet each other within the box.
 void foresee_bodies_that_meet(const Case& c, std::vector<ForeseenMeeting>& meetings) {
   const std::vector<GasBodyConfig>& configs = c.gas->bodies;
+  if (configs.size() < 2) return;
   std::vector<MovingBody> bodies;
   std::size_t particles = 1;
   for (const GasBodyConfig& config : configs) {
@@ -201,7 +203,8 @@ void foresee_bodies_that_meet(const Case& c, std::vector<ForeseenMeeting>& meeti
   for (std::size_t n = 0; n < bodies.size(); ++n)
     for (std::size_t m = 0; m < n; ++m) {
       const bool known = bodies[n].mass == 0.0 && bodies[m].mass == 0.0;
-      const double width = c.cell_size / std::min(configs[n].particles_per_direction, configs[m].particles_per_direction);
+      const double width =
+          0.5 * c.cell_size * (1.0 / configs[n].particles_per_direction + 1.0 / configs[m].particles_per_direction);
       if (known && (has_motion(bodies[n].motion) || has_motion(bodies[m].motion))) approaches.emplace_back(m, n, width);
     }
   if (approaches.empty()) return;

@@ -159,8 +159,8 @@ double interpolate(const std::vector<double>& place, const std::vector<double>& 
   return std::lerp(column[above - 1], column[above], (x - place[above - 1]) / (place[above] - place[above - 1]));
 }
 
-InitialState::InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells, OpenParts open)
-    : cells_(&cells), open_(std::move(open)) {
+InitialState::InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells, const OpenParts& open)
+    : cells_(&cells) {
   for (const FillConfig& fill : config.fills) {
     Fill made{&fill, filling_of(config, fluids, fill), {}, {-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
     made.fluid = &fluids[static_cast<std::size_t>(made.filling.fluid)];
@@ -174,9 +174,10 @@ InitialState::InitialState(const GasConfig& config, const std::vector<Fluid>& fl
   for (std::size_t f = 0; f < fills_.size(); ++f) {
     Fill& fill = fills_[f];
     if (!fill.config->energy) continue;
-    const double volume = whole_of(cells.geometry) * volume_of(f), density = fill.filling.density;
+    const double volume = whole_of(cells.geometry) * volume_of(f, open), density = fill.filling.density;
     if (!(volume > 0.0))
-      throw std::runtime_error(fmt::format("gas.fill.{}: its energy goes nowhere; its shape must hold a part of the box", f));
+      throw std::runtime_error(
+          fmt::format("gas.fill.{}: its energy goes nowhere; its shape must hold a part of the box that no body covers", f));
     fill.filling.pressure =
         equation_of_state::pressure(fill.fluid->equation_of_state, density, *fill.config->energy / (volume * density));
   }
@@ -287,7 +288,7 @@ std::vector<Portion> InitialState::in_cell(const Vector& middle) const {
   return portions;
 }
 
-double InitialState::volume_of(std::size_t fill) const {
+double InitialState::volume_of(std::size_t fill, const OpenParts& open) const {
   const Cells& cells = *cells_;
   const Fill& sought = fills_[fill];
   std::array<int, 3> first{}, last{1, 1, 1};
@@ -309,7 +310,7 @@ double InitialState::volume_of(std::size_t fill) const {
           if (here == static_cast<int>(fill)) part += volume;
         });
         const double whole_cell = cells.metric.volume[static_cast<std::size_t>(i - cells.metric.first)];
-        const double volume = open_ ? open_(index) * whole_cell : whole_cell;
+        const double volume = open ? open(index) * whole_cell : whole_cell;
         sum += all >= 0 ? (all == static_cast<int>(fill) ? volume : 0.0) : volume * (part / whole);
       }
   return sum;

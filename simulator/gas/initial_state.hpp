@@ -36,7 +36,7 @@ using OpenParts = std::function<double(const std::array<int, 3>& cell)>;
 class InitialState {
  public:
   /// Throws std::runtime_error when a fill with an energy holds none of the box.
-  InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells, OpenParts open = {});
+  InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells, const OpenParts& open = {});
 
   /// What a cell of the box holds, by the position of its middle. A cell in one state is one portion of part 1.
   std::vector<Portion> in_cell(const Vector& middle) const;
@@ -56,11 +56,10 @@ class InitialState {
   /// that fill if it is.
   template <class F>
   int visit(const Vector& middle, F&& f) const;
-  double volume_of(std::size_t fill) const;
+  double volume_of(std::size_t fill, const OpenParts& open) const;
 
   std::vector<Fill> fills_;
   const Cells* cells_;
-  OpenParts open_;
 };
 
 /// Which of the fluids has a name.

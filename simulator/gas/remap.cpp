@@ -138,8 +138,9 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
       const Giving giving = giving_at(swept[f], room, gas.careful ? &plain : nullptr, f);
       // A shock steepens itself. Held together like a contact, and with fourth order, it rings.
       const std::size_t l = giving.low, h = giving.high;
+      const Lanes closing = max(Lanes(velocity[axis][l] - velocity[axis][h]), Lanes(0.0));
       const Lanes calm = away_from_shocks(giving.up, energy[l - 1], energy[l], energy[h], energy[h + 1],
-                                          velocity[axis][l] > velocity[axis][h]);
+                                          min(density[l], density[h]) * closing * closing);
       const Lanes leaving = swept[f] * giving.leaving(density, calm, Lanes(1.0));
       dm[f] = leaving;
       const Carried carried = carry_momentum<D>(giving, donors, leaving, f, dp);

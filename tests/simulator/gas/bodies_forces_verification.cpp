@@ -3,27 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <map>
-#include <mutex>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "simulator/case_reader.hpp"
-#include "simulator/gas/passages.hpp"
-#include "simulator/gas/reaction.hpp"
-#include "simulator/setup.hpp"
-#include "tests/command_line.hpp"
-#include "tests/simulator/gas/bodies_set_up.hpp"
-#include "tests/simulator/gas/chapman_jouguet.hpp"
-#include "tests/simulator/virtual_ranks.hpp"
+#include "tests/simulator/gas/charge.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
 
-using equation_of_state::JonesWilkinsLee;
-using equation_of_state::Murnaghan;
 using set_up::Stepper;
 
 // Gravity --------------------------------------------------------------------------------------------------------------
@@ -114,15 +102,6 @@ TEST(GasWithWeight, CarriesABodyOfItsOwnWeightAndLetsAHeavierOneSink) {
 
 // Reaction -------------------------------------------------------------------------------------------------------------
 
-const JonesWilkinsLee products{1838.0, 1668.9e9, 59.69e9, 5.9, 2.1, 0.45, 594.96, 9.499985e9};  // PBX 9501
-const Murnaghan reactant{1838.0, 1.0 / 2.78e-11, 7.4, 1e5, 1000.0, 300.0};
-const double heat = products.detonation_energy / products.reference_density;  // J/kg
-const ChapmanJouguet cj = tangent(products);
-
-reaction::JwlPlusPlus jwl_plus_plus(double reaction_time) {
-  return {1.0 / reaction_time, 1.3, cj.pressure, 0.01 * cj.pressure, heat};
-}
-
 /// Velocity of a detonation along a tube of explosive with walls of bodies (or of the box) at half a width from its middle,
 /// given in cells.
 double velocity_in_tube(double half_width, bool bodies, Domain& domain) {
@@ -173,28 +152,6 @@ TEST(Detonation, RunsThroughATubeOfBodiesAsBetweenWallsOfTheBox) {
   RecordProperty("velocities", std::to_string(between_walls / cj.velocity) + " " + std::to_string(cut / cj.velocity));
 }
 
-/// A charge in a case of a body, with air around: lit in its middle, or by a program. `half_width` of the box in cells.
-Gas charge_in_case(int half_width, const Reaction& law, Domain& domain) {
-  constexpr double cell = 0.5e-3;
-  const double inner = half_width - 7.0;
-  Gas gas =
-      set_up::box(Geometry::plane, cell, {-half_width, -half_width, 0}, {half_width, half_width, 0},
-                  {{"explosive", reactant}, {"products", products}, {"air", equation_of_state::IdealGas{1.4, 718.0}}}, domain);
-  gas.burns.push_back({"detonation", 0, 1, law, {}});
-  gas.bodies.all = {
-      set_up::ball(Geometry::plane, cell, {0.1 * cell, 0.2 * cell, 0.0}, (inner + 4.6) * cell, 0.3, inner * cell)};
-  const double hot = products.pressure(products.reference_density, heat);
-  fill(
-      gas,
-      [&](const Vector& x, double) {
-        const double r = magnitude(x) / cell;
-        if (r < 3.0) return Filling{1, products.reference_density, hot, {}};
-        return r < inner + 2.3 ? Filling{0, products.reference_density, 1e5, {}} : Filling{2, 1.2, 1e5, {}};
-      },
-      domain);
-  return gas;
-}
-
 TEST(Detonation, OfAChargeInAClosedCaseKeepsItsBooks) {
   const reaction::ProgramBurn program{8000.0, 0.0, 3.0, heat, {}};
   for (const Reaction& law : {Reaction(jwl_plus_plus(0.1e-6)), Reaction(program)}) {
@@ -216,81 +173,6 @@ TEST(Detonation, OfAChargeInAClosedCaseKeepsItsBooks) {
       }
     });
   }
-}
-
-// Bits -----------------------------------------------------------------------------------------------------------------
-
-TEST(SameBits, OfGasWithWeightThatBurnsAroundBodies) {
-  const auto numbers_after = [](int ranks, bool restarted) {
-    std::map<std::array<int, 3>, std::vector<double>> cells;
-    std::vector<double> bodies;
-    std::mutex one_at_a_time;
-    VirtualRanks::run(ranks, [&](std::shared_ptr<Domain> domain) {
-      const auto start = [&] {
-        Gas gas = charge_in_case(14, jwl_plus_plus(0.1e-6), *domain);
-        gas.gravity[1] = -1e7;
-        gas.bodies.all[0].mass = 1.0, gas.bodies.all[0].axis = 1;
-        open_passages(gas), prepare_burns(gas);
-        return gas;
-      };
-      Gas gas = start();
-      Stepper().steps(gas, 12, *domain);
-      if (restarted) {
-        const std::vector<double> numbers = numbers_of(gas);
-        gas = start();
-        restore(gas, numbers, *domain);
-      }
-      Stepper().steps(gas, 12, *domain);
-      const std::lock_guard lock(one_at_a_time);
-      set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
-        for (int q = 0; q < gas.contents(); ++q) cells[c.index].push_back(gas.content.cell(c.block, q, c.number));
-      });
-      bodies = numbers_of(gas.bodies);
-    });
-    return std::pair{cells, bodies};
-  };
-  const auto one = numbers_after(1, false);
-  for (const int ranks : {2, 3, 5}) EXPECT_TRUE(numbers_after(ranks, false) == one) << ranks << " ranks";
-  EXPECT_TRUE(numbers_after(2, true) == one) << "restarted";
-}
-
-// Energies of fills ----------------------------------------------------------------------------------------------------
-
-TEST(EnergyOfAFill, GoesToTheGasThatABodyLeavesOfIt) {
-  const fs::path file = scratch() / "case.toml";
-  std::ofstream(file) << R"(
-title = "Energy beside a body"
-geometry = "plane"
-cell_size = 1
-end_time = 1
-[gas]
-lower = [-24, -24]
-upper = [24, 24]
-[[gas.fluid]]
-name = "gas"
-[gas.fluid.material]
-name = "ideal gas"
-density = 1
-density_source = "a textbook gas"
-[gas.fluid.material.equation_of_state]
-law = "ideal_gas"
-source = "a textbook gas"
-gamma = 1.4
-specific_heat = 1
-[[gas.fill]]
-density = 1
-pressure = 1e-12
-[[gas.fill]]
-shape = { sphere = { centre = [0, 0], radius = 12.7 } }
-density = 5
-energy = 1000
-[[gas.body]]
-name = "disk"
-shape = { sphere = { centre = [7, 2], radius = 6.4 } }
-)";
-  const Simulation s = simulator::set_up(read_case(file, {}));
-  const double cold = 1e-12 / 0.4 * 48.0 * 48.0;
-  EXPECT_NEAR(s.gas.initial.energy, 1000.0, 1e-12 * 1000.0 + cold);
 }
 
 }  // namespace

@@ -329,7 +329,7 @@ std::vector<Problem> problems_for_ranks() {
   const std::size_t of_waves = all.size();
   for (std::size_t n = 0; n < of_waves; ++n) {
     Problem problem = all[n];
-    if (problem.fluids == 1) continue;
+    if (problem.fluids == 1 && problem.geometry != Geometry::plane) continue;
     problem.scheme = Scheme::implicit, problem.name += ", implicit";
     all.push_back(problem);
     if (!straight(problem.geometry, 0)) continue;

@@ -105,12 +105,13 @@ TEST(TwoBodiesInATube, MeetWhereTheirWaysCross) {
 }
 
 TEST(TwoBodiesInATube, ThatPassEachOtherDoNotMeet) {
-  const auto passing = [&](const std::string& lower, const std::string& upper) {
+  const auto passing = [&](const std::string& lower, const std::string& upper, const std::string& more = "") {
     return foreseen_meetings(
-        tube("[0.3, 0]", "[0.4, 0.025]", "[300, 0]", body("{ box = { lower = " + lower + ", upper = " + upper + " } }")));
+        tube("[0.3, 0]", "[0.4, 0.025]", "[300, 0]", body("{ box = { lower = " + lower + ", upper = " + upper + " } }", more)));
   };
   EXPECT_TRUE(passing("[0.5, 0.035]", "[0.6, 0.05]").empty()) << "two cells beside it";
   EXPECT_TRUE(passing("[0.4, 0.025]", "[0.6, 0.05]").empty()) << "flush";
+  EXPECT_TRUE(passing("[0.4, 0.025]", "[0.6, 0.05]", "particles_per_direction = 8").empty()) << "flush, of finer particles";
   EXPECT_EQ(passing("[0.5, 0.02]", "[0.6, 0.05]").size(), 1u) << "a cell in its way";
 }
 
