@@ -231,7 +231,9 @@ inline constexpr auto keys<GasConfig> = std::tuple{
     Key{"courant", &GasConfig::courant, Unit::one, "part of the stable step; 0: 0.5", fraction},
     Key{"least_mach", &GasConfig::least_mach, Unit::one,
         "Mach number below which the damping of slow flow falls no further; 1: always that of a shock", fraction},
-    Key{"scheme", &GasConfig::scheme, Unit::one, "ice, or to compare with it the classic form of 1993, ice_classic"},
+    Key{"scheme", &GasConfig::scheme, Unit::one,
+        "ice, or to compare with it the classic form of 1993, ice_classic, whose energy is in no book: it needs "
+        "gates.residual = 1"},
     Key{"implicit", &GasConfig::implicit, Unit::one,
         "solve for the pressure of each step, so that steps may be longer than sound takes from cell to cell"},
     Key{"acoustic_courant", &GasConfig::acoustic_courant, Unit::one,

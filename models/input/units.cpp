@@ -11,6 +11,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -114,6 +115,8 @@ Measure measure_of_name(const std::string& name) {
   if (const auto newer = newer_than_udunits(name)) return *newer;
   thread_local std::map<std::string, Measure> found_before;  // files use the same few units again and again
   if (const auto known_measure = found_before.find(name); known_measure != found_before.end()) return known_measure->second;
+  static std::mutex one_at_a_time;  // udunits has one scanner for all threads
+  const std::lock_guard lock(one_at_a_time);
   const UnitHandle unit(ut_parse(unit_system(), name.c_str(), UT_ASCII));
   BaseFinder finder;
   if (!unit || ut_accept_visitor(unit.get(), &BaseFinder::visitor, &finder) != UT_SUCCESS)

@@ -42,8 +42,10 @@ inline Lanes away_from_shocks(const LanesMask& up, const Lanes& before, const La
   constexpr double least = 0.2, most = 0.4, least_approach = 0.01;
   const Lanes largest = max(Lanes(max(abs(high - low), max(abs(low - before), abs(after - high)))), Lanes(1e-300));
   const Lanes donor = max(Lanes(abs(select(up, low, high))), Lanes(1e-300));
-  const Lanes jump = min(max(Lanes((1.0 / (most - least)) * (largest / donor - least)), Lanes(0.0)), Lanes(1.0));
-  return 1.0 - jump * min(Lanes((1.0 / least_approach) * (approach / largest)), Lanes(1.0));
+  const LanesMask shocks = (largest > least * donor) & (approach > 0.0);
+  if (none(shocks)) return Lanes(1.0);
+  const Lanes jump = min(Lanes((1.0 / (most - least)) * (largest / donor - least)), Lanes(1.0));
+  return select(shocks, 1.0 - jump * min(Lanes((1.0 / least_approach) * (approach / largest)), Lanes(1.0)), Lanes(1.0));
 }
 
 /// How a part of a cell's mass leaves with its momentum.

@@ -133,14 +133,20 @@ MovingBody surface_of(const Case& c, const GasBodyConfig& config) {
   return body;
 }
 
-/// Two bodies, of which one at least moves as prescribed, seen from time to time.
+/// Two bodies, of which one at least moves, seen from time to time.
 class Approach {
  public:
-  Approach(std::size_t first, std::size_t second, double width) : bodies(first, second), width_(width) {}
+  Approach(std::size_t first, std::size_t second, double width, bool both_prescribed)
+      : bodies(first, second), known(both_prescribed), width_(width) {}
 
+  /// Where they are at first: what cell the gas between them pushes is not resolved if it is thinner than half a cell.
+  void start(const std::vector<Vector>& one, const std::vector<Vector>& other, double cell_size) {
+    const double least = width_ + 0.5 * cell_size;
+    side_by_side_ = distance_of(one, other, least) < least;
+  }
   void look(const std::vector<Vector>& one, const std::vector<Vector>& other, double time) {
     if (touches_ || touched_at_start_) return;
-    const double distance = distance_of(one, other);
+    const double distance = distance_of(one, other, width_);
     // Particles of bodies that lie flush are a width apart (half of that of each); those of bodies that overlap come closer,
     // wherever they lie.
     constexpr double flush = 1.0 - 1e-6, overlapping = 0.75;
@@ -155,11 +161,14 @@ class Approach {
   }
   /// s, when they were apart for the last time; nothing if they never met.
   std::optional<double> time() const { return touches_ ? apart_ : std::nullopt; }
+  bool side_by_side() const { return side_by_side_; }
 
   std::pair<std::size_t, std::size_t> bodies;
+  bool known;  // where both go is prescribed
 
  private:
-  double distance_of(const std::vector<Vector>& one, const std::vector<Vector>& other) const {
+  /// Infinite beyond `reach`.
+  static double distance_of(const std::vector<Vector>& one, const std::vector<Vector>& other, double reach) {
     const auto box_of = [](const std::vector<Vector>& points) {
       Bounds box{points.front(), points.front()};
       for (const Vector& x : points)
@@ -171,7 +180,7 @@ class Approach {
       std::vector<Vector> kept;
       std::copy_if(points.begin(), points.end(), std::back_inserter(kept), [&](const Vector& x) {
         for (std::size_t a = 0; a < 3; ++a)
-          if (x[a] < box.lower[a] - width_ || x[a] > box.upper[a] + width_) return false;
+          if (x[a] < box.lower[a] - reach || x[a] > box.upper[a] + reach) return false;
         return true;
       });
       return kept;
@@ -179,17 +188,17 @@ class Approach {
     double least = std::numeric_limits<double>::infinity();
     if (one.empty() || other.empty()) return least;
     const std::vector<Vector> of_one = near(one, box_of(other)), of_other = near(other, box_of(one));
-    const Neighbours neighbours(of_one, width_);
+    const Neighbours neighbours(of_one, reach);
     for (const Vector& x : of_other) least = std::min(least, neighbours.nearest(x));
     return least;
   }
 
   double width_;  // m, of the particles
-  bool touches_ = false, touched_at_start_ = false;
+  bool touches_ = false, touched_at_start_ = false, side_by_side_ = false;
   std::optional<double> apart_;
 };
 
-/// The bodies that meet each other within the box.
+/// The bodies that meet each other within the box, and those that touch from the start.
 void foresee_bodies_that_meet(const Case& c, std::vector<ForeseenMeeting>& meetings) {
   const std::vector<GasBodyConfig>& configs = c.gas->bodies;
   if (configs.size() < 2) return;
@@ -205,7 +214,7 @@ void foresee_bodies_that_meet(const Case& c, std::vector<ForeseenMeeting>& meeti
       const bool known = bodies[n].mass == 0.0 && bodies[m].mass == 0.0;
       const double width =
           0.5 * c.cell_size * (1.0 / configs[n].particles_per_direction + 1.0 / configs[m].particles_per_direction);
-      if (known && (has_motion(bodies[n].motion) || has_motion(bodies[m].motion))) approaches.emplace_back(m, n, width);
+      if (!known || has_motion(bodies[n].motion) || has_motion(bodies[m].motion)) approaches.emplace_back(m, n, width, known);
     }
   if (approaches.empty()) return;
   constexpr double most_particles = 2e6;  // a part of a second
@@ -222,13 +231,18 @@ void foresee_bodies_that_meet(const Case& c, std::vector<ForeseenMeeting>& meeti
         return false;
       });
     }
-    for (Approach& approach : approaches)
-      approach.look(points[approach.bodies.first], points[approach.bodies.second], c.end_time * n / looks);
+    for (Approach& approach : approaches) {
+      const auto &one = points[approach.bodies.first], &other = points[approach.bodies.second];
+      if (n == 0) approach.start(one, other, c.cell_size);
+      if (approach.known) approach.look(one, other, c.end_time * n / looks);
+    }
   }
-  for (const Approach& approach : approaches)
-    if (const auto time = approach.time())
-      meetings.push_back({configs[approach.bodies.first].name, configs[approach.bodies.second].name,
-                          ForeseenMeeting::Kind::runs_into_body, *time, 0.0});
+  using Kind = ForeseenMeeting::Kind;
+  for (const Approach& approach : approaches) {
+    const std::string &one = configs[approach.bodies.first].name, &other = configs[approach.bodies.second].name;
+    if (approach.side_by_side()) meetings.push_back({one, other, Kind::slides_along_body, 0.0, 0.0});
+    if (const auto time = approach.time()) meetings.push_back({one, other, Kind::runs_into_body, *time, 0.0});
+  }
 }
 
 }  // namespace
@@ -285,6 +299,13 @@ std::string in_words(const ForeseenMeeting& m) {
           "{} and {}: from {:.4g} s on they run into each other, and the gas between them has nowhere to go: the run ends "
           "about there; end it before that (end_time), or let one of them stop (amplitude)",
           m.body, m.side, m.time);
+    case Kind::slides_along_body:
+      return fmt::format(
+          "{} and {}: there is less than half a cell between them at the start, and one of them moves: what the gas does to "
+          "each of them where they touch is not resolved, and velocity, force and work can be wrong by several percent; let a "
+          "wall "
+          "of the box take the place of the one at rest, or leave two cells between them",
+          m.body, m.side);
   }
   return {};
 }

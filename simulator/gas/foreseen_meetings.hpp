@@ -12,9 +12,10 @@ namespace brisance::simulator::gas {
 
 struct ForeseenMeeting {
   enum class Kind {
-    runs_into_wall,   // comes within half a cell of it: the gas between has nowhere to go
-    lets_go_of_wall,  // was at the wall and moves off: there is no gas that could widen into the room behind it
-    runs_into_body    // meets another body within the box; not if they touch at the start
+    runs_into_wall,    // comes within half a cell of it: the gas between has nowhere to go
+    lets_go_of_wall,   // was at the wall and moves off: there is no gas that could widen into the room behind it
+    runs_into_body,    // meets another body within the box; not if they touch at the start
+    slides_along_body  // touches another body at the start, and one of them moves or is driven
   };
   std::string body, side;  // by their names in the case; `side` is the other body, where one runs into it
   Kind kind;
@@ -22,8 +23,8 @@ struct ForeseenMeeting {
   double missing;  // m, by which a body that lets go of a wall should reach farther beyond it, to the end of the case
 };
 
-/// In the order of bodies and sides, then of pairs of bodies; looks at the motion up to the end of the case. Bodies that the
-/// gas drives are in none: where they go is not known. Empty without gas.
+/// In the order of bodies and sides, then of pairs of bodies; looks at the motion up to the end of the case. Where bodies go
+/// that the gas drives is not known: they are seen at the start alone. Empty without gas.
 std::vector<ForeseenMeeting> foreseen_meetings(const Case& c);
 
 /// What happens and what to do.

@@ -31,7 +31,10 @@ inline Lanes fourth_order_change(const Lanes& behind, const Lanes& ahead, const 
 /// Contacts spread over ever more cells unless they are held together. 0 where a field changes by less than a part of itself
 /// from cell to cell, as smooth things do, 1 from three times that on.
 inline Lanes jump(const Lanes& value, const Lanes& behind, const Lanes& ahead, double least) {
-  return min(max(Lanes((0.5 / least) * max(abs(ahead), abs(behind)) / abs(value) - 0.5), Lanes(0.0)), Lanes(1.0));
+  const Lanes larger = max(abs(ahead), abs(behind)), all = abs(value);
+  const LanesMask jumps = larger > least * all;
+  if (none(jumps)) return Lanes(0.0);  // nearly everywhere, and without a division
+  return select(jumps, min(Lanes((0.5 / least) * larger / all - 0.5), Lanes(1.0)), Lanes(0.0));
 }
 
 inline constexpr double smallest_part = 0.1;  // against a division by nothing; there what stays is nearly everything

@@ -110,8 +110,12 @@ TEST(TwoBodiesInATube, ThatPassEachOtherDoNotMeet) {
         tube("[0.3, 0]", "[0.4, 0.025]", "[300, 0]", body("{ box = { lower = " + lower + ", upper = " + upper + " } }", more)));
   };
   EXPECT_TRUE(passing("[0.5, 0.035]", "[0.6, 0.05]").empty()) << "two cells beside it";
-  EXPECT_TRUE(passing("[0.4, 0.025]", "[0.6, 0.05]").empty()) << "flush";
-  EXPECT_TRUE(passing("[0.4, 0.025]", "[0.6, 0.05]", "particles_per_direction = 8").empty()) << "flush, of finer particles";
+  for (const std::string more : {"", "particles_per_direction = 8"}) {
+    const auto flush = passing("[0.4, 0.025]", "[0.6, 0.05]", more);
+    ASSERT_EQ(flush.size(), 1u) << more;
+    EXPECT_EQ(flush[0].kind, Kind::slides_along_body) << more;
+    EXPECT_TRUE(contains(in_words(flush[0]), "piston and other: there is less than half a cell between them")) << more;
+  }
   EXPECT_EQ(passing("[0.5, 0.02]", "[0.6, 0.05]").size(), 1u) << "a cell in its way";
 }
 
