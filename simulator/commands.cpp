@@ -83,9 +83,10 @@ int run_case(const Options& o) {
   const Path directory = o.directory.empty() ? Path(file.stem().string() + "_run") : o.directory;
   Simulation s = set_up_or_refuse(c);
   prepare_directory(directory, c, o.overwrite);
-  for (const std::string& warning : set_up_warnings(c)) fmt::print(stderr, "warning: {}\n", warning);
+  const std::vector<std::string> warnings = set_up_warnings(c);
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
   catch_interrupts();
-  return tell(run(c, s, {directory, std::nullopt}), directory);
+  return tell(run(c, s, {.directory = directory, .until = std::nullopt, .warnings = warnings}), directory);
 }
 
 Case case_of_run(const Path& directory, const std::vector<std::string>& overrides = {}) {

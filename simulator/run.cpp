@@ -21,7 +21,6 @@
 #include "simulator/output/grid_snapshot.hpp"
 #include "simulator/output/run_directory.hpp"
 #include "simulator/output/snapshot.hpp"
-#include "simulator/set_up_warnings.hpp"
 #include "simulator/solid/stress.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
@@ -78,7 +77,7 @@ class Run {
     const int threads = omp_get_max_threads();
     log_.line(fmt::format("{}: {} {}s, {} thread{}", case_.title, count_points(s_), name_of_points(s_), threads,
                           threads == 1 ? "" : "s"));
-    for (const std::string& warning : set_up_warnings(case_)) log_.line("warning: " + warning);
+    for (const std::string& warning : options_.warnings) log_.line("warning: " + warning);
     if (s_.gas.implicit)
       log_.line(
           "gas.implicit: pressures are found by iteration, so the last digits of the results may differ from machine to "
@@ -131,14 +130,15 @@ class Run {
     return result;
   }
 
-  /// What was to be foreseen of bodies in the gas explains many a failure; a line for each.
+  /// What was to be foreseen of bodies in the gas, and ends a run, explains many a failure; a line for each.
   std::string foreseen_by_now() const {
     std::string text;
     try {
       Case whole = case_;
       whole.end_time = end_;
       for (const gas::ForeseenMeeting& meeting : gas::foreseen_meetings(whole))
-        if (meeting.time <= s_.time + 2.0 * s_.last_time_step) text += "\n" + in_words(meeting);
+        if (meeting.kind != gas::ForeseenMeeting::Kind::slides_along_body && meeting.time <= s_.time + 2.0 * s_.last_time_step)
+          text += "\n" + in_words(meeting);
     } catch (const std::exception&) {  // it is no more than an explanation
     }
     return text;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "simulator/output/summary.hpp"
 #include "simulator/simulation.hpp"
@@ -20,6 +21,7 @@ struct RunOptions {
   std::optional<double> until;      // s, instead of the case's end
   /// Steps of this run; after them it ends as if it had been interrupted.
   std::int64_t most_steps = std::numeric_limits<std::int64_t>::max();
+  std::vector<std::string> warnings{};  // of the case, for the log
 };
 
 struct RunResult {

@@ -293,6 +293,14 @@ void hold_rows_together(Gas& gas, double dt) {
   });
 }
 
+/// Of eight cells of the window: those that share what they hold with a neighbourhood of their own.
+LanesMask is_small(const Neighbourhoods& all, std::size_t n) {
+  Lanes small(0.0);
+  for (std::size_t l = 0; l < 8; ++l)
+    if (n + l < all.number.size() && all.number[n + l] >= 0) small.set(static_cast<int>(l), 1.0);
+  return small > 0.5;
+}
+
 void share_changes(Gas& gas) {
   const Bodies& bodies = gas.bodies;
   const Window& w = bodies.window;
@@ -301,16 +309,19 @@ void share_changes(Gas& gas) {
   const auto first = [&](std::size_t r) { return Content::momentum + D + 3 * r; };
   for_each_eight(w, [&](std::size_t n) {
     const Lanes volume = at(bodies.space.volume, n), open = volume / whole_volumes(gas.cells, w, n);
-    Lanes mass(0.0), kinetic_before(0.0), kinetic(0.0);
+    Lanes mass(0.0), kinetic_before(0.0), kinetic(0.0), carried(0.0);
     for (std::size_t r = 0; r < fluids; ++r) mass += open * at(s.content[first(r) + Content::mass], n);
     for (std::size_t a = 0; a < D; ++a) {
-      const Lanes before = open * at(s.content[Content::momentum + a], n),
-                  after = before + at(s.change[Content::momentum + a], n);
-      kinetic_before += before * before, kinetic += after * after;
+      const Lanes before = open * at(s.content[Content::momentum + a], n), push = at(s.change[Content::momentum + a], n),
+                  after = before + push;
+      kinetic_before += before * before, kinetic += after * after, carried += before * push;
     }
+    // What pushes a small cell pushes its neighbourhood: of the square of its push over its own mass, which may be a billionth
+    // of that, nothing is motion. The neighbourhood's heat makes up for it (find_donors).
+    const Lanes gained = select(is_small(bodies.small, n), carried, 0.5 * (kinetic - kinetic_before));
     const Lanes growth = at(s.volume, n) - volume;
     const Lanes heat = at(s.heat, n);
-    const Lanes work = at(s.change[Content::energy], n) - 0.5 * (kinetic - kinetic_before) / mass - heat;
+    const Lanes work = at(s.change[Content::energy], n) - gained / mass - heat;
     const LanesMask gas_here = volume > 0.0;
     Lanes rest(1.0), largest(0.0);
     for (std::size_t r = 0; r < fluids; ++r) largest = max(largest, at(s.content[first(r) + Content::volume], n));

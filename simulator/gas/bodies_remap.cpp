@@ -159,8 +159,8 @@ void find_donors(Gas& gas) {
   const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
   const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
   const auto first = [&](std::size_t r) { return Content::momentum + D + per_fluid * r; };
-  // From what a cell holds after the Lagrangian phase.
-  const auto write = [&](auto&& held, const auto& volume, auto&& put) {
+  // From what a cell, or a neighbourhood, holds after the Lagrangian phase.
+  const auto write = [&](auto&& held, const auto& volume, bool neighbourhood, auto&& put) {
     auto mass = held(first(0) + Content::mass);
     for (std::size_t r = 1; r < fluids; ++r) mass += held(first(r) + Content::mass);
     auto kinetic = 0.0 * mass;
@@ -172,13 +172,19 @@ void find_donors(Gas& gas) {
     }
     put(s.density, mass / volume);
     if (fluids == 1) return put(s.energy, (held(Content::energy) - kinetic) / volume);
-    auto internal = 0.0 * mass;
+    using Real = std::decay_t<decltype(mass)>;
+    Real internal = 0.0 * mass, volumes = internal;
+    for (std::size_t r = 0; r < fluids; ++r)
+      internal += held(first(r) + Content::internal), volumes += held(first(r) + Content::volume);
+    // The cells of a neighbourhood share their motion: what it loses by that is heat of all of its fluids.
+    const Real lost = held(Content::energy) - kinetic - internal;
+    if (neighbourhood) internal += lost;
     for (std::size_t r = 0; r < fluids; ++r) {
-      using Real = std::decay_t<decltype(mass)>;
       const Real own = held(first(r) + Content::volume), own_mass = held(first(r) + Content::mass);
       const auto present = (own > least_fraction * volume) & (own_mass > 0.0);
-      const Real divisor = select(present, own, Real(1.0)), heat = held(first(r) + Content::internal);
-      internal += heat;
+      const Real divisor = select(present, own, Real(1.0));
+      Real heat = held(first(r) + Content::internal);
+      if (neighbourhood) heat += lost * (own / volumes);
       put(s.part[r], select(present, Real(own / volume), Real(0.0)));
       put(s.fluid_density[r], Real(own_mass / divisor)), put(s.fluid_energy[r], Real(heat / divisor));
     }
@@ -186,7 +192,7 @@ void find_donors(Gas& gas) {
   };
   for_each_eight(w, [&](std::size_t n) {
     const Lanes open = at(bodies.space.volume, n) / whole_volumes(gas.cells, w, n);
-    write([&](std::size_t q) { return open * at(s.content[q], n) + at(s.change[q], n); }, at(s.volume, n),
+    write([&](std::size_t q) { return open * at(s.content[q], n) + at(s.change[q], n); }, at(s.volume, n), false,
           [&](Column& column, const Lanes& value) { value.store(column.data() + n); });
   });
   std::vector<double> merged(bodies.small.small.size());
@@ -203,7 +209,7 @@ void find_donors(Gas& gas) {
       });
     };
     merged[i] = sum([&](std::size_t n) { return s.volume[n]; });
-    write(held, merged[i], [&](Column& column, double value) { column[hood.cell] = value; });
+    write(held, merged[i], true, [&](Column& column, double value) { column[hood.cell] = value; });
   }
   for (std::size_t i = 0; i < merged.size(); ++i) s.volume[bodies.small.small[i].cell] = merged[i];
 }

@@ -143,7 +143,7 @@ TEST(ResumeCommand, RefusesALaterTimeThatTheCaseCouldNotHave) {
   EXPECT_EQ(call({"resume", run, "--until", "1 us"}).code, done);
 }
 
-/// What is foreseen of the longer time is said before it begins.
+/// What is foreseen of the longer time is said before it begins, and that of a run stands in its log as well.
 TEST(ResumeCommand, WarnsOfWhatALaterTimeBrings) {
   const fs::path directory = scratch();
   const std::string file = write_text(directory / "tube.toml", R"(
@@ -169,6 +169,9 @@ velocity = [300, 0]
   ASSERT_EQ(call({"run", file, "-o", run}).err, "");
   const Answer resumed = call({"resume", run, "--until", "400 us"});
   EXPECT_TRUE(contains(resumed.err, "warning: piston: at 0.00031")) << resumed.err;
+  const std::string longer = (directory / "longer").string();
+  EXPECT_TRUE(contains(call({"run", file, "-o", longer, "--set", "end_time=400 us"}).err, "warning: piston: at 0.00031"));
+  EXPECT_TRUE(contains(text_of(directory / "longer" / "log.txt"), "warning: piston: at 0.00031"));
 }
 
 TEST(ResumeCommand, OfARunThatHasComeToItsEndSaysSoAndTouchesNothing) {
