@@ -4,6 +4,6 @@
 #include "simulator/parallel.hpp"
 
 int main(int argc, char** argv) {
-  brisance::simulator::let_waiting_threads_sleep(argv);
+  brisance::simulator::choose_for_libraries(argv);
   return brisance::simulator::run_command_line(argc, argv);
 }

@@ -8,13 +8,16 @@
 
 namespace brisance::simulator {
 
-void let_waiting_threads_sleep(char** argv) {
-  for (const char* chosen : {"OMP_WAIT_POLICY", "GOMP_SPINCOUNT"})
-    if (std::getenv(chosen)) return;
+void choose_for_libraries(char** argv) {
+  const auto set = [](const char* name) { return std::getenv(name) != nullptr; };
+  bool chosen = false;
+  const auto choose = [&](const char* name, const char* value) { chosen |= !set(name) && setenv(name, value, 0) == 0; };
+  if (!set("GOMP_SPINCOUNT")) choose("OMP_WAIT_POLICY", "passive");
+  choose("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1");
+  if (!chosen) return;
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error || setenv("OMP_WAIT_POLICY", "passive", 0) != 0) return;
-  execv(program.c_str(), argv);
+  if (!error) execv(program.c_str(), argv);
 }
 
 }  // namespace brisance::simulator

@@ -38,10 +38,10 @@ void parallel_for_blocks(std::size_t count, F&& f) {
   if (first) std::rethrow_exception(first);
 }
 
-/// Makes threads that wait sleep instead of spin: where there are more threads than free cores, those that spin keep those that
-/// work from their core. The OpenMP library reads how to wait before main() begins, so the program starts itself anew with
-/// OMP_WAIT_POLICY=passive, unless the user has said how to wait. To be called first in main(); returns if all is well, or if
-/// nothing can be done about it.
-void let_waiting_threads_sleep(char** argv);
+/// Starts the program itself anew with what its libraries read before main() begins, unless the user has chosen:
+/// OMP_WAIT_POLICY=passive, so that threads that wait sleep (where there are more threads than free cores, those that spin keep
+/// those that work from their core); GLIBC_TUNABLES=glibc.malloc.hugetlb=1, so that large arrays stand in huge pages where the
+/// system has them. To be called first in main(); returns if all is well, or if nothing can be done about it.
+void choose_for_libraries(char** argv);
 
 }  // namespace brisance::simulator

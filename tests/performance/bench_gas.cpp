@@ -9,6 +9,7 @@
 
 #include "simulator/gas/gas.hpp"
 #include "simulator/gas/muscl_hllc.hpp"
+#include "simulator/parallel.hpp"
 #include "tests/performance/environment.hpp"
 
 namespace brisance::simulator::gas {
@@ -79,8 +80,9 @@ void measure_oracle() {
 }  // namespace
 }  // namespace brisance::simulator::gas
 
-int main() {
+int main(int, char** argv) {
   using namespace brisance::simulator;
+  choose_for_libraries(argv);  // as brisance does
   using namespace brisance::simulator::gas;
   const double flops = brisance::print_environment().flops;
   fmt::print("goal for 3-D, one gas, one thread: 150 ns on a core of 133 Gflop/s, here {:.0f}\n", 150.0 * 133.0 / flops);

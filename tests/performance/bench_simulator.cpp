@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "models/input/material_reader.hpp"
+#include "simulator/parallel.hpp"
 #include "simulator/setup.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
@@ -110,5 +111,6 @@ int run(bool quick) {
 }  // namespace brisance::simulator
 
 int main(int argc, char** argv) {
+  brisance::simulator::choose_for_libraries(argv);  // as brisance does
   return brisance::simulator::run(argc > 1 && std::string(argv[1]) == "--quick");
 }

@@ -62,16 +62,17 @@ TEST_P(Parallel, LeavesAFewBlocksToTheThreadThatAsks) {
 
 INSTANTIATE_TEST_SUITE_P(Threads, Parallel, testing::Values(1, 2, 5));
 
-/// What a child process that calls let_waiting_threads_sleep ends with: the code of the program it became, or `returned`.
-constexpr int returned = 99, sleeps = 42;
-int outcome_in_a_child(const char* policy) {
+/// What a child process that calls choose_for_libraries ends with: the code of the program it became, or `returned`.
+constexpr int returned = 99, as_chosen = 42;
+int outcome_in_a_child(const char* wait_policy, const char* tunables) {
   const pid_t child = fork();
   if (child == 0) {
     unsetenv("GOMP_SPINCOUNT");
-    policy ? setenv("OMP_WAIT_POLICY", policy, 1) : unsetenv("OMP_WAIT_POLICY");
-    std::string words[] = {"a", "--gtest_also_run_disabled_tests", "--gtest_filter=*WaitingThreadsOfAProgramStartedAnew*"};
+    wait_policy ? setenv("OMP_WAIT_POLICY", wait_policy, 1) : unsetenv("OMP_WAIT_POLICY");
+    tunables ? setenv("GLIBC_TUNABLES", tunables, 1) : unsetenv("GLIBC_TUNABLES");
+    std::string words[] = {"a", "--gtest_also_run_disabled_tests", "--gtest_filter=*OfAProgramStartedAnew*"};
     char* argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
-    let_waiting_threads_sleep(argv);
+    choose_for_libraries(argv);
     _exit(returned);
   }
   int status = 0;
@@ -79,16 +80,22 @@ int outcome_in_a_child(const char* policy) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Runs in the child of the test below.
-TEST(Waiting, DISABLED_WaitingThreadsOfAProgramStartedAnewSleep) {
+/// Runs in children of the test below.
+TEST(ChosenForLibraries, DISABLED_OfAProgramStartedAnew) {
+  ASSERT_NE(std::getenv("OMP_WAIT_POLICY"), nullptr);
   ASSERT_STREQ(std::getenv("OMP_WAIT_POLICY"), "passive");
-  _exit(sleeps);
+  ASSERT_NE(std::getenv("GLIBC_TUNABLES"), nullptr);
+  ASSERT_STREQ(std::getenv("GLIBC_TUNABLES"), "glibc.malloc.hugetlb=1");
+  _exit(as_chosen);
 }
 
-TEST(Waiting, IsWhatTheUserSaysOrElseSleep) {
-  EXPECT_EQ(outcome_in_a_child(nullptr), sleeps) << "the program starts itself anew";
-  EXPECT_EQ(outcome_in_a_child("passive"), returned);
-  EXPECT_EQ(outcome_in_a_child("active"), returned);
+TEST(ChosenForLibraries, IsWhatTheUserHasNot) {
+  const char* huge_pages = "glibc.malloc.hugetlb=1";
+  EXPECT_EQ(outcome_in_a_child(nullptr, nullptr), as_chosen) << "the program starts itself anew";
+  EXPECT_EQ(outcome_in_a_child("passive", nullptr), as_chosen);
+  EXPECT_EQ(outcome_in_a_child(nullptr, huge_pages), as_chosen);
+  EXPECT_EQ(outcome_in_a_child("passive", huge_pages), returned);
+  EXPECT_EQ(outcome_in_a_child("active", "glibc.malloc.hugetlb=0"), returned);
 }
 
 }  // namespace
