@@ -19,7 +19,6 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry, double dt) {
   const bool walls = std::any_of(s.boundaries.begin(), s.boundaries.end(),
                                  [](const Boundary& b) { return b.kind == BoundaryKind::rigid_wall; });
   const bool has_field_force = s.body_force || dot(s.gravity, s.gravity) > 0.0;
-  const Lanes momentum_channels = pack(0, 1, 1, 1, 0, 0, 0, 0), force_channels = pack(0, 0, 0, 0, 1, 1, 1, 0);
   const std::vector<GhostPlane> planes = ghost_planes<D>(s, tile.key);
   Lanes* nodes = s.grid.tile(tile.number, 0);
   std::fill_n(nodes, s.grid.fields * Block<D>::tile_nodes, Lanes(0.0));
@@ -62,11 +61,9 @@ void to_tile(Simulation& s, const TileView& tile, Carry carry, double dt) {
       const auto to = nodes_of<D>(body, eight, nodes);
       const auto slopes = [&](std::size_t i) {
         Slopes<D> along;
-        for (std::size_t b = 0; b < D; ++b) {
-          const Lanes A = momentum_channels * slope[b][i], S = force_channels * slope[b][i];
+        for (std::size_t b = 0; b < D; ++b)
           for (std::size_t k = 0; k < 3; ++k)
-            along[b][k] = multiply_add(w.along[b].lever[k][i], A, Lanes(w.along[b].gradient[k][i]) * S);
-        }
+            along[b][k] = halves(Lanes(w.along[b].lever[k][i]), Lanes(w.along[b].gradient[k][i])) * slope[b][i];
         if constexpr (G == Geometry::axisymmetric) {
           const Lanes f = pack(0.0, 0.0, 0.0, 0.0, hoop_force[i]);
           for (std::size_t k = 0; k < 3; ++k) along[0][k] = multiply_add(w.hoop[k][i], f, along[0][k]);

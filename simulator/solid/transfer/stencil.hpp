@@ -30,21 +30,21 @@ template <std::size_t D, std::size_t count, class Field>
   const auto S = [&](std::size_t k, std::size_t a, std::size_t n) { return w.along[a].value[k][p + n]; };
   for (int k = 0; k < (D == 3 ? 3 : 1); ++k) {
     std::array<Lanes, count> in_plane;
-    std::array<double, count> Sz;
+    std::array<Lanes, count> Sz;
     for (std::size_t n = 0; n < count; ++n) {
-      in_plane[n] = value[p + n], Sz[n] = 1.0;
+      in_plane[n] = value[p + n], Sz[n] = Lanes(1.0);
       if constexpr (D == 3) {
-        Sz[n] = S(k, 2, n);
+        Sz[n] = Lanes(S(k, 2, n));
         in_plane[n] = multiply_add(Sz[n], in_plane[n], slope[n][2][k]);
       }
     }
     for (int j = 0; j < 3; ++j) {
       std::array<Lanes, count> in_row;
-      std::array<double, count> SySz;
+      std::array<Lanes, count> SySz;
       for (std::size_t n = 0; n < count; ++n) {
         const double Sy = S(j, 1, n);
         SySz[n] = Sy * Sz[n];
-        in_row[n] = multiply_add(Sy, in_plane[n], Lanes(Sz[n]) * slope[n][1][j]);
+        in_row[n] = multiply_add(Sy, in_plane[n], Sz[n] * slope[n][1][j]);
       }
       const int row = w.corner[p] + B::tile_node(0, j, k);
       for (int i = 0; i < 3; ++i) {
