@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <new>
-#include <stdexcept>
 
 #include "models/programs/files.hpp"
 #include "models/programs/progress.hpp"
@@ -22,6 +21,7 @@
 #include "simulator/output/run_directory.hpp"
 #include "simulator/output/snapshot.hpp"
 #include "simulator/solid/stress.hpp"
+#include "simulator/step_failure.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
 
@@ -30,11 +30,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Path = std::filesystem::path;
-
-/// The run cannot go on; what() says why.
-struct RunFailure : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// How often an interval fits into a time; what is due at a time depends on nothing else.
 std::int64_t count(double time, double interval) {
@@ -121,7 +116,7 @@ class Run {
       result.ending = interrupted_ ? Ending::interrupted : Ending::done;
     } catch (const std::exception& error) {
       result.ending = Ending::failed;
-      const bool good = dynamic_cast<const RunFailure*>(&error) || dynamic_cast<const gas::BodiesMeet*>(&error);
+      const bool good = dynamic_cast<const StepFailure*>(&error) != nullptr;
       result.message = dynamic_cast<const std::bad_alloc*>(&error) ? "there is not enough memory" : error.what();
       result.message += foreseen_by_now() + "\n" + keep_last_state(good);
     }
@@ -206,7 +201,7 @@ class Run {
     StepSize size = next_step(s_, case_.numerics, end_);
     for (int rejections = 0;; ++rejections, size.dt *= 0.5) {
       if (is_too_small(size) || (rejections > 0 && size.dt < smallest_step()))
-        throw RunFailure(fmt::format(
+        throw StepFailure(fmt::format(
             "step {} at {:.6g} s would have to be {:.4g} s{}; it is limited by {}{}", s_.step + 1, s_.time, size.dt,
             case_.numerics.least_step > 0.0 ? fmt::format(", less than {:.4g} s", case_.numerics.least_step) : "", size.limit,
             rejections > 0 ? fmt::format(", and larger ones were rejected; {}", why_rejected(s_, 2.0 * size.dt)) : ""));

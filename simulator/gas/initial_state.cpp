@@ -12,6 +12,7 @@
 #include "models/input/diagnostics.hpp"
 #include "models/input/units.hpp"
 #include "simulator/solid/shapes.hpp"
+#include "simulator/step_failure.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -113,7 +114,7 @@ FillingFunction state_beyond(const GasConfig& config, const std::vector<Fluid>& 
     try {
       return state_at(edge, number, fluid ? &*fluid : nullptr, position, time, dimensions);
     } catch (const FormulaError& error) {
-      throw std::runtime_error(
+      throw StepFailure(
           fmt::format("gas.edge {}: {}: {}", choices<BoxSide>[static_cast<std::size_t>(edge.side)], error.key, error.what()));
     }
   };
