@@ -57,7 +57,7 @@ void add_experiment(TableReader& table, Experiments& experiments) {
   const auto p = keys.pressure.empty() ? std::vector<double>(csv.rows(), 0.0) : csv.numbers(keys.pressure, Unit::Pa);
   std::vector<std::pair<std::vector<std::string>, std::string>> filters;
   for (const auto& [column, value] : where) filters.emplace_back(csv.texts(column), value);
-  if (!csv.problems().empty()) return table.add_problems(csv.problems());
+  if (!csv.problems().empty()) return table.add_problems("file", csv.problems());
   const auto wanted = [&](const std::string& test) {
     return keys.tests.empty() || std::find(keys.tests.begin(), keys.tests.end(), test) != keys.tests.end();
   };
@@ -83,7 +83,7 @@ Experiments read_experiments(TableReader& top, std::span<const TableReader> tabl
     try {
       add_experiment(table, experiments);
     } catch (const InputError& error) {  // the file cannot be read
-      table.add_problems(error.problems());
+      table.add_problems("file", error.problems());
     }
   }
   if (tables.empty() && !top.has("experiment")) top.problem("there is no [experiment], the measured curves");

@@ -125,7 +125,8 @@ StateProfile read_state_profile(const ProfileConfig& config) {
   StateProfile profile;
   const std::string_view along = choices<ProfileAlong>[static_cast<std::size_t>(config.along)];
   profile.place = csv.numbers(along, Unit::m);
-  const auto fail = [&](const std::string& what) { throw InputError({{csv.path().string(), 0, 0, "", what}}); };
+  std::vector<Problem> problems;
+  const auto wrong = [&](const std::string& what) { problems.push_back({csv.path().string(), 0, 0, "", what}); };
   struct Column {
     std::string_view name;
     std::vector<double>& values;
@@ -143,13 +144,14 @@ StateProfile read_state_profile(const ProfileConfig& config) {
   }
   for (const std::string& name : csv.column_names())
     if (std::find(known.begin(), known.end(), name) == known.end())
-      fail(fmt::format("the column \"{}\" says nothing of a gas; there may be {}", name, listed(known)));
-  if (!any) fail("it holds no state; one column at least of " + listed(std::span(known).subspan(1)) + " is required");
-  if (profile.place.empty()) fail("it has no rows; one is required");
+      wrong(fmt::format("the column \"{}\" says nothing of a gas; there may be {}", name, listed(known)));
+  if (!any) wrong("it holds no state; one column at least of " + listed(std::span(known).subspan(1)) + " is required");
+  if (profile.place.empty()) wrong("it has no rows; one is required");
   if (!std::is_sorted(profile.place.begin(), profile.place.end()))
-    fail(fmt::format("{} must rise from row to row; two rows of one place make a jump", along));
+    wrong(fmt::format("{} must rise from row to row; two rows of one place make a jump", along));
   if (std::any_of(profile.density.begin(), profile.density.end(), [](double rho) { return !(rho > 0.0); }))
-    fail("a density is not above 0");
+    wrong("a density is not above 0");
+  if (!problems.empty()) throw InputError(std::move(problems));
   return profile;
 }
 
