@@ -347,6 +347,7 @@ RunResult resume(const Case& c, Simulation& s, const RunOptions& options) {
 
 Summary report(const Case& c, Simulation& s, const Path& directory) {
   const Measures measures(c, s);
+  const Of of = tells_of_failure(directory / "summary.json") ? Of::failed_run : Of::good_run;
   std::vector<std::string> troubles;
   const Restored restored = restore_newest(directory, s, [&](const std::string& trouble) { troubles.push_back(trouble); });
   Summary summary{c.title,
@@ -360,7 +361,8 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   omp_get_max_threads(),
                   books_of(s),
                   measures.read(s)};
-  for (auto& found : {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory)})
+  for (auto& found :
+       {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory, of)})
     troubles.insert(troubles.end(), found.begin(), found.end());
   summary.message = fmt::format("{}", fmt::join(troubles, "\n"));
   return summary;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "models/programs/files.hpp"
@@ -144,6 +146,12 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
   }
   all.set("wall_time", s.wall_time).set(points + "_steps_per_second", s.particle_steps_per_second).set("threads", s.threads);
   replace_file_by_text(path, all.set("versions", versions).text());
+}
+
+bool tells_of_failure(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return text.find("\"ending\": \"failed\"") != std::string::npos;
 }
 
 std::string in_words(const Summary& s) {
