@@ -73,6 +73,7 @@ class Run {
     log_.line(fmt::format("{}: {} {}s, {} thread{}", case_.title, count_points(s_), name_of_points(s_), threads,
                           threads == 1 ? "" : "s"));
     for (const std::string& warning : options_.warnings) log_.line("warning: " + warning);
+    if (const std::string what = not_gated(case_.gates, s_); !what.empty()) log_.line("not gated: " + what);
     if (s_.gas.implicit)
       log_.line(
           "gas.implicit: pressures are found by iteration, so the last digits of the results may differ from machine to "
@@ -299,7 +300,7 @@ class Run {
     summary.wall_time = log_.wall_time(), summary.threads = omp_get_max_threads();
     summary.particle_steps_per_second = static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds;
     summary.books = books_of(s_);
-    summary.measures = measures_.read(s_);
+    summary.measures = measures_.read(s_), summary.not_gated = not_gated(case_.gates, s_);
     if (history_) summary.peaks = peaks_of(read_gauges(case_, options_.directory));
   }
 
@@ -360,7 +361,9 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   0.0,
                   omp_get_max_threads(),
                   books_of(s),
-                  measures.read(s)};
+                  measures.read(s),
+                  {},
+                  not_gated(c.gates, s)};
   for (auto& found :
        {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory, of)})
     troubles.insert(troubles.end(), found.begin(), found.end());

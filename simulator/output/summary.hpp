@@ -21,6 +21,7 @@ struct Summary {
   Books books;
   std::vector<MeasuredValue> measures;
   std::vector<GaugePeak> peaks{};  // of the gauges
+  std::string not_gated{};         // what no gate watches
 };
 
 /// Whether a summary that was written tells of a run that failed; not if there is none.
