@@ -104,6 +104,39 @@ TEST(TwoBodiesInATube, MeetWhereTheirWaysCross) {
       << "it runs away: 20 mm are left";
 }
 
+const std::string ring_of_tube =
+    "[[gas.edge]]\nside = \"low_x\"\nkind = \"periodic\"\n[[gas.edge]]\nside = \"high_x\"\nkind = \"periodic\"\n";
+
+/// The tube is 1 m long: from the end of the piston at 0.9 m there are 100 mm to the side, and so many beyond it as the block
+/// begins at.
+TEST(TwoBodiesInATube, MeetRoundItsPeriod) {
+  const auto met = [&](const std::string& from, const std::string& to) {
+    return foreseen_meetings(tube("[0.8, 0]", "[0.9, 0.05]", "[300, 0]",
+                                  ring_of_tube + body("{ box = { lower = [" + from + ", 0], upper = [" + to + ", 0.025] } }")));
+  };
+  const auto beyond = met("0.05", "0.15");
+  ASSERT_EQ(beyond.size(), 1u);
+  EXPECT_EQ(beyond[0].kind, Kind::runs_into_body);
+  constexpr double two_looks = 2 * 0.8e-3 / 400;  // s
+  EXPECT_NEAR(beyond[0].time, 0.15 / speed, two_looks);
+  const auto at_the_side = met("0", "0.1");
+  ASSERT_EQ(at_the_side.size(), 1u);
+  EXPECT_NEAR(at_the_side[0].time, 0.1 / speed, two_looks) << "only images beyond the side are near it";
+  EXPECT_TRUE(met("0.2", "0.3").empty()) << "60 mm are left";
+  const auto touching = foreseen_meetings(
+      tube("[0.9, 0]", "[1, 0.05]", "[-300, 0]", ring_of_tube + body("{ box = { lower = [0, 0], upper = [0.1, 0.025] } }")));
+  ASSERT_EQ(touching.size(), 1u);
+  EXPECT_EQ(touching[0].kind, Kind::slides_along_body) << "flush round the period";
+}
+
+/// It leaves the box on one side before it comes to the wall above, which it does within it again.
+TEST(ABodyThatGoesRoundThePeriod, MeetsTheWallItThenRunsInto) {
+  const auto met = foreseen_meetings(tube("[0.9, 0.01]", "[0.95, 0.02]", "[300, 50]", ring_of_tube));
+  ASSERT_EQ(met.size(), 1u);
+  EXPECT_EQ(met[0].body + " " + met[0].side, "piston high_y");
+  EXPECT_NEAR(met[0].time, (0.03 - 0.5 * h) / 50.0, 1e-9);
+}
+
 TEST(TwoBodiesInATube, ThatPassEachOtherDoNotMeet) {
   const auto passing = [&](const std::string& lower, const std::string& upper, const std::string& more = "") {
     return foreseen_meetings(
