@@ -248,9 +248,9 @@ inline constexpr auto keys<GasConfig> = std::tuple{
     Key{"fluid", &GasConfig::fluids, Unit::one, "a gas or liquid", any_value, required},
     Key{"fill", &GasConfig::fills, Unit::one, "what a region holds at the start; later ones lie over earlier ones", any_value,
         required},
+    Key{"body", &GasConfig::bodies, Unit::one, "a rigid body in the gas"},  // with bodies edges are asked for farther beyond
     Key{"edge", &GasConfig::edges, Unit::one, "a side of the box that is no wall"},
-    Key{"reaction", &GasConfig::reactions, Unit::one, "a fluid burns to another"},
-    Key{"body", &GasConfig::bodies, Unit::one, "a rigid body in the gas"}};
+    Key{"reaction", &GasConfig::reactions, Unit::one, "a fluid burns to another"}};
 
 // Observation: [[gauge]], [[measure]], [[figure]], [output], [gates] -----------------------------------------------------
 

@@ -175,6 +175,16 @@ TEST(FormulasBeyondAnEdge, AreRefusedWithTheLineAndWhatIsAllowed) {
   }
 }
 
+/// With bodies the gas asks for eight rings of cells beyond a side, without for two.
+TEST(FormulasBeyondAnEdge, AreTriedAsFarAsTheGasWillAsk) {
+  const std::string body = "[[gas.body]]\nname = \"disk\"\nshape = { sphere = { centre = [0.5, 0], radius = 0.11 } }\n";
+  const auto problems = [&](const std::string& text) {
+    return problems_of(text, "pressure = 1\ndensity", "pressure = \"y > 0.45 ? -1 : 1\"\ndensity");
+  };
+  EXPECT_EQ(problems(carried(20)), "none");
+  EXPECT_TRUE(contains(problems(carried(20) + body), "gas.edge.2.pressure: at (")) << problems(carried(20) + body);
+}
+
 /// A pressure that falls to zero after a fifth of the time: known before the first step, with place and time.
 TEST(FormulasBeyondAnEdge, AreTriedThroughAllOfTheTimeBeforeARun) {
   const std::string problems = problems_of(carried(20), "pressure = 1\ndensity", "pressure = \"1 - 9.9*t\"\ndensity");
