@@ -15,6 +15,7 @@
 #include "models/input/csv.hpp"
 #include "models/input/diagnostics.hpp"
 #include "simulator/keys.hpp"
+#include "tests/simulator/small_bar.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -311,20 +312,7 @@ time = "1 us"
 )";
 
 /// Every key of a body in the gas.
-const std::string bodies_in_gas = R"(
-geometry = "plane"
-cell_size = "1 mm"
-end_time = "1 us"
-[gas]
-lower = [0, 0]
-upper = ["20 mm", "10 mm"]
-[[gas.fluid]]
-name = "air"
-material = "air.toml"
-[[gas.fill]]
-temperature = "300 K"
-pressure = "1 atm"
-[[gas.body]]
+const std::string bodies_in_gas = box_of_air("1 mm", "1 us", "[0, 0]", "[0.02, 0.01]") + R"([[gas.body]]
 name = "ring"
 shape = { sphere = { centre = ["5 mm", "5 mm"], radius = "4 mm", inner_radius = "2 mm" } }
 particles_per_direction = 3

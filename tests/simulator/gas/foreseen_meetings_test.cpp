@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "simulator/case_reader.hpp"
-#include "tests/command_line.hpp"
+#include "tests/simulator/small_bar.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -18,20 +18,7 @@ constexpr double h = 5e-3, speed = 300.0;
 
 /// A tube of 1 m by 50 mm with a piston between two places that moves at 300 m/s for 0.8 ms: by 0.24 m.
 Case tube(const std::string& lower, const std::string& upper, const std::string& velocity, const std::string& more = "") {
-  return read_case(write_text(scratch() / "tube.toml", R"(
-geometry = "plane"
-cell_size = "5 mm"
-end_time = "0.8 ms"
-[gas]
-lower = [0, 0]
-upper = ["1 m", "50 mm"]
-[[gas.fluid]]
-name = "air"
-material = "air.toml"
-[[gas.fill]]
-temperature = "300 K"
-pressure = "1 atm"
-[[gas.body]]
+  return read_case(write_text(scratch() / "tube.toml", box_of_air("5 mm", "0.8 ms", "[0, 0]", "[1, 0.05]") + R"([[gas.body]]
 name = "piston"
 shape = { box = { lower = )" + lower + ", upper = " + upper +
                                                            " } }\nvelocity = " + velocity + '\n' + more));
@@ -155,26 +142,15 @@ TEST(TwoBodiesInATube, ThatPassEachOtherDoNotMeet) {
 /// A bar that turns about its middle: 60 mm from there it comes by.
 TEST(ABarThatTurns, MeetsWhatItsEndsReach) {
   const auto turning = [&](const std::string& radius) {
-    return foreseen_meetings(read_case(write_text(scratch() / "bar.toml", R"(
-geometry = "plane"
-cell_size = "5 mm"
-end_time = "1 ms"
-[gas]
-lower = [-0.2, -0.2]
-upper = [0.2, 0.2]
-[[gas.fluid]]
-name = "air"
-material = "air.toml"
-[[gas.fill]]
-temperature = "300 K"
-pressure = "1 atm"
-[[gas.body]]
+    return foreseen_meetings(
+        read_case(write_text(scratch() / "bar.toml", box_of_air("5 mm", "1 ms", "[-0.2, -0.2]", "[0.2, 0.2]") + R"([[gas.body]]
 name = "bar"
 shape = { box = { lower = [-0.06, -0.01], upper = [0.06, 0.01] } }
 rotation = [0, 0, 2000]
 [[gas.body]]
 name = "ball"
-shape = { sphere = { centre = [0, 0.1], radius = )" + radius + " } }\n")));
+shape = { sphere = { centre = [0, 0.1], radius = )" + radius +
+                                                         " } }\n")));
   };
   const auto met = turning("0.06");
   ASSERT_EQ(met.size(), 1u);
