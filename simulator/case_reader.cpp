@@ -13,13 +13,13 @@
 #include <utility>
 #include <variant>
 
-#include "models/input/csv.hpp"
 #include "models/input/table_reader.hpp"
 #include "simulator/case_checks.hpp"
 #include "simulator/gas/case_checks.hpp"
 #include "simulator/keys.hpp"
 #include "simulator/output/gauges.hpp"
 #include "simulator/output/line_out.hpp"
+#include "simulator/output/measures.hpp"
 #include "simulator/solid/shapes.hpp"
 #include "simulator/table.hpp"
 
@@ -574,8 +574,7 @@ class CaseReader : public KeyReader<CaseReader> {
       in.problem("measured", "the error against the measured profile would be zero; remove it");
     if (!measure.profile.empty() && in.sound({"profile"})) {
       try {
-        const CsvFile csv = CsvFile::load(measure.profile);
-        static_cast<void>(csv.numbers("radius", Unit::m)), static_cast<void>(csv.numbers("height", Unit::m));
+        static_cast<void>(read_profile(measure.profile));
       } catch (const InputError& error) {
         in.problem("profile", "its file cannot be used");
         in.add_problems("profile", error.problems());

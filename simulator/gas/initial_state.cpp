@@ -121,12 +121,10 @@ FillingFunction state_beyond(const GasConfig& config, const std::vector<Fluid>& 
 }
 
 StateProfile read_state_profile(const ProfileConfig& config) {
-  const CsvFile csv = CsvFile::load(config.file);
+  CsvColumns csv(config.file);
   StateProfile profile;
   const std::string_view along = choices<ProfileAlong>[static_cast<std::size_t>(config.along)];
   profile.place = csv.numbers(along, Unit::m);
-  std::vector<Problem> problems;
-  const auto wrong = [&](const std::string& what) { problems.push_back({csv.path().string(), 0, 0, "", what}); };
   struct Column {
     std::string_view name;
     std::vector<double>& values;
@@ -140,18 +138,18 @@ StateProfile read_state_profile(const ProfileConfig& config) {
   bool any = false;
   for (const Column& column : columns) {
     known.push_back(column.name);
-    if (csv.has(column.name)) column.values = csv.numbers(column.name, column.unit), any = true;
+    if (csv.file().has(column.name)) column.values = csv.numbers(column.name, column.unit), any = true;
   }
-  for (const std::string& name : csv.column_names())
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      wrong(fmt::format("the column \"{}\" says nothing of a gas; there may be {}", name, listed(known)));
-  if (!any) wrong("it holds no state; one column at least of " + listed(std::span(known).subspan(1)) + " is required");
-  if (profile.place.empty()) wrong("it has no rows; one is required");
+  for (const std::string& name : csv.file().column_names())
+    if (csv.file().has(along) && std::find(known.begin(), known.end(), name) == known.end())
+      csv.problem(fmt::format("the column \"{}\" says nothing of a gas; there may be {}", name, listed(known)));
+  if (!any) csv.problem("it holds no state; one column at least of " + listed(std::span(known).subspan(1)) + " is required");
+  if (csv.file().rows() == 0) csv.problem("it has no rows; one is required");
   if (!std::is_sorted(profile.place.begin(), profile.place.end()))
-    wrong(fmt::format("{} must rise from row to row; two rows of one place make a jump", along));
+    csv.problem(fmt::format("{} must rise from row to row; two rows of one place make a jump", along));
   if (std::any_of(profile.density.begin(), profile.density.end(), [](double rho) { return !(rho > 0.0); }))
-    wrong("a density is not above 0");
-  if (!problems.empty()) throw InputError(std::move(problems));
+    csv.problem("a density is not above 0");
+  csv.finish();
   return profile;
 }
 

@@ -32,6 +32,7 @@ const fs::path& folder() {
     std::ofstream(made / "swirl.csv") << "radius [mm],pressure [bar],velocity_around [m/s]\n0,1,0\n2,2,10\n2,3,0\n";
     std::ofstream(made / "tension.csv") << "radius [mm],pressure [bar]\n0,1\n4,-200\n";
     std::ofstream(made / "falling.csv") << "radius [mm],density [kg/m^3]\n2,1\n0,1\n";
+    std::ofstream(made / "worse.csv") << "radius [mm],density [kg/m^3],pressure [m],colour\n2,1,1,1\n0,-1,1,1\n";
     std::ofstream(made / "empty.csv") << "radius [mm],density [kg/m^3]\n0,0\n";
     return made;
   }();
@@ -919,6 +920,27 @@ TEST(CaseReader, ReportsWhatCanBeJudgedWhateverElseIsWrong) {
     for (const std::string& problem : problems) EXPECT_NE(what.find(problem), std::string::npos) << problem << "\n" << what;
     EXPECT_EQ(std::count(what.begin(), what.end(), '\n') + 1, static_cast<std::ptrdiff_t>(problems.size())) << what;
   }
+}
+
+TEST(CaseReader, ReportsAllThatIsWrongWithAFileOfNumbers) {
+  const auto count = [](const std::string& what, const std::string& file) {
+    std::ptrdiff_t lines = 0;
+    for (std::size_t at = 0; (at = what.find(file, at)) != std::string::npos; ++at) ++lines;
+    return lines;
+  };
+  std::string of_gas = gases;
+  of_gas.replace(of_gas.find("swirl.csv"), 9, "worse.csv");
+  const std::string profile = problems_of(of_gas);
+  for (const char* problem : {"column pressure: ", "the column \"colour\" says nothing", "radius must rise from row to row",
+                              "a density is not above 0"})
+    EXPECT_NE(profile.find(problem), std::string::npos) << problem << "\n" << profile;
+  EXPECT_EQ(count(profile, "worse.csv:"), 4) << profile;
+  const std::string measured = problems_of(bar + "[[measure]]\nkind = \"profile_error\"\nprofile = \"reference.csv\"\n");
+  EXPECT_EQ(count(measured, "reference.csv:1:1: there is no column"), 2) << measured;
+  const std::string figure = problems_of(bar +
+                                         "[[figure]]\nname = \"a\"\nkind = \"line\"\nfields = [\"pressure\", \"density\"]\n"
+                                         "from = [0, 0]\nto = [\"1 mm\", 0]\nreference = \"worse.csv\"\n");
+  EXPECT_EQ(count(figure, "worse.csv:"), 2) << "no column x, no pressure in m\n" << figure;
 }
 
 TEST(CaseReader, ACaseHasABody) {
