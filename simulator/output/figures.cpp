@@ -86,21 +86,21 @@ struct MostOf {
   std::array<double, 2> range;
   std::string words;  // what lies beyond the range
 };
-/// All but the outermost hundredth at either end; nothing if the rest does not reach far beyond these.
+/// All but the outermost hundredth at either end; nothing if the rest does not reach ten times as far as these do.
 std::optional<MostOf> most_of(const std::vector<double>& all, std::string_view unit) {
-  constexpr double outermost = 0.01, far = 3.0;  // of the values; times the range of the others
+  constexpr double outermost = 0.01, far = 10.0;
   std::vector<double> values;
   std::copy_if(all.begin(), all.end(), std::back_inserter(values), [](double v) { return std::isfinite(v); });
   std::sort(values.begin(), values.end());
   const auto left_out = static_cast<std::size_t>(std::ceil(outermost * static_cast<double>(values.size())));
   if (values.size() <= 2 * left_out) return std::nullopt;
-  const double low = values[left_out], high = values[values.size() - 1 - left_out];
+  const double low = values[left_out], high = values[values.size() - 1 - left_out], reach = largest({low, high});
   const bool finite = values.size() == all.size();
-  if (finite && values.back() - values.front() <= far * (high - low)) return std::nullopt;
+  if (finite && (reach == 0.0 || largest({values.front(), values.back()}) <= far * reach)) return std::nullopt;
   const auto beyond = std::count_if(values.begin(), values.end(), [&](double v) { return v < low || v > high; });
-  std::string words = fmt::format("the run failed: values reach from {} to {}, {} of {} beyond this range",
-                                  in_words(values.front(), unit, 3), in_words(values.back(), unit, 3), beyond, all.size());
-  if (!finite) words += fmt::format("; {} are no numbers", all.size() - values.size());
+  std::string words = fmt::format("run failed: {} of {} values beyond; all from {} to {}", beyond, all.size(),
+                                  in_words(values.front(), unit, 3), in_words(values.back(), unit, 3));
+  if (!finite) words += fmt::format("; {} no numbers", all.size() - values.size());
   return MostOf{{low, high}, words};
 }
 
