@@ -12,35 +12,6 @@
 namespace brisance::driver {
 namespace {
 
-/// Columns of a CSV file; what is wrong with any of them is kept, so that all of it can be reported at once.
-class Columns {
- public:
-  explicit Columns(const std::filesystem::path& path) : csv_(CsvFile::load(path)) {}
-
-  std::vector<double> numbers(const std::string& column, Unit unit) {
-    return or_problems([&] { return csv_.numbers(column, unit); });
-  }
-  std::vector<std::string> texts(const std::string& column) {
-    return or_problems([&] { return csv_.texts(column); });
-  }
-  std::size_t rows() const { return csv_.rows(); }
-  const std::vector<Problem>& problems() const { return problems_; }
-
- private:
-  template <class Read>
-  auto or_problems(Read&& read) -> decltype(read()) {
-    try {
-      return read();
-    } catch (const InputError& error) {
-      problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
-      return {};
-    }
-  }
-
-  CsvFile csv_;
-  std::vector<Problem> problems_;
-};
-
 void add_experiment(TableReader& table, Experiments& experiments) {
   const std::size_t before = table.problem_count();
   const auto keys = read_keys<ExperimentKeys>(table);
@@ -50,19 +21,19 @@ void add_experiment(TableReader& table, Experiments& experiments) {
   if (table.problem_count() > before) return;
   experiments.files += (experiments.files.empty() ? "" : ", ") + std::filesystem::path(keys.file).lexically_normal().string();
 
-  Columns csv(table.file().parent_path() / keys.file);
+  CsvColumns csv(table.file().parent_path() / keys.file);
   const auto tests = csv.texts(keys.test), authors = keys.author.empty() ? tests : csv.texts(keys.author);
   const auto T = csv.numbers(keys.temperature, Unit::K), rate = csv.numbers(keys.strain_rate, Unit::per_s),
              strain = csv.numbers(keys.plastic_strain, Unit::one), Y = csv.numbers(keys.stress, Unit::Pa);
-  const auto p = keys.pressure.empty() ? std::vector<double>(csv.rows(), 0.0) : csv.numbers(keys.pressure, Unit::Pa);
+  const auto p = keys.pressure.empty() ? std::vector<double>(csv.file().rows(), 0.0) : csv.numbers(keys.pressure, Unit::Pa);
   std::vector<std::pair<std::vector<std::string>, std::string>> filters;
   for (const auto& [column, value] : where) filters.emplace_back(csv.texts(column), value);
-  if (!csv.problems().empty()) return table.add_problems(csv.problems());
+  if (!csv.problems().empty()) return table.add_problems("file", csv.problems());
   const auto wanted = [&](const std::string& test) {
     return keys.tests.empty() || std::find(keys.tests.begin(), keys.tests.end(), test) != keys.tests.end();
   };
   std::map<std::string, std::size_t> position;
-  for (std::size_t row = 0; row < csv.rows(); ++row) {
+  for (std::size_t row = 0; row < csv.file().rows(); ++row) {
     if (!wanted(tests[row])) continue;
     if (!std::all_of(filters.begin(), filters.end(), [&](const auto& f) { return f.first[row] == f.second; })) continue;
     const auto [found, fresh] = position.emplace(tests[row], experiments.tests.size());
@@ -83,7 +54,7 @@ Experiments read_experiments(TableReader& top, std::span<const TableReader> tabl
     try {
       add_experiment(table, experiments);
     } catch (const InputError& error) {  // the file cannot be read
-      table.add_problems(error.problems());
+      table.add_problems("file", error.problems());
     }
   }
   if (tables.empty() && !top.has("experiment")) top.problem("there is no [experiment], the measured curves");

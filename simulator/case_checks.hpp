@@ -21,10 +21,17 @@ inline std::string in_metres(double x) {
   return fmt::format("{:.9g} m", x == 0.0 ? 0.0 : x);
 }
 
+/// What else is wrong is judged without a geometry as far as it does not depend on it.
+inline bool geometry_known(const TableReader& in) {
+  return in.sound_in_file({"geometry"});
+}
+
+/// What has no name, as that is wrong, takes none.
 template <class Config>
 void require_own_name(TableReader& in, const Config& config, const std::vector<Config>& others) {
   const bool taken = std::any_of(others.begin(), others.end(), [&](const Config& other) { return other.name == config.name; });
-  if (taken) in.problem("name", "the name " + in_quotes(config.name) + " is given twice; give each its own");
+  if (taken && !config.name.empty())
+    in.problem("name", "the name " + in_quotes(config.name) + " is given twice; give each its own");
 }
 
 /// Names that become part of the names of files.
@@ -36,7 +43,8 @@ inline void require_file_name(TableReader& in, const std::string& name) {
 }
 
 inline void require_component_in_geometry(TableReader& in, Axis axis, const Case& c) {
-  if (static_cast<int>(axis) >= c.dimensions()) in.problem("axis", "there is no z in two dimensions; give x or y");
+  if (geometry_known(in) && static_cast<int>(axis) >= c.dimensions())
+    in.problem("axis", "there is no z in two dimensions; give x or y");
 }
 
 }  // namespace brisance::simulator

@@ -13,13 +13,13 @@
 #include <utility>
 #include <variant>
 
-#include "models/input/csv.hpp"
 #include "models/input/table_reader.hpp"
 #include "simulator/case_checks.hpp"
 #include "simulator/gas/case_checks.hpp"
 #include "simulator/keys.hpp"
 #include "simulator/output/gauges.hpp"
 #include "simulator/output/line_out.hpp"
+#include "simulator/output/measures.hpp"
 #include "simulator/solid/shapes.hpp"
 #include "simulator/table.hpp"
 
@@ -47,9 +47,9 @@ class CaseReader : public KeyReader<CaseReader> {
     if (case_.bodies.empty() && !case_.gas && (!top.has("solid") || top.problem_count() == 0))
       top.problem("there is no [[solid]] and no [gas]; a case has one of them");
     if (!case_.bodies.empty() && case_.gas) top.problem("gas", "a case holds either solids or gas, not yet both");
-    if (!case_.bodies.empty() && geometry_known_ && dimensions() == 1)
+    if (!case_.bodies.empty() && geometry_known(top) && dimensions() == 1)
       top.problem("geometry", "in one dimension there is gas alone; solids need plane, axisymmetric or three_dimensional");
-    if (geometry_known_ && case_.cell_size > 0.0 && !case_.boundaries.empty()) {
+    if (top.sound({"geometry", "cell_size", "boundary"})) {
       std::vector<TableReader> tables = top.tables("boundary");
       for (std::size_t b = 0; b < case_.boundaries.size(); ++b) check_stroke(tables[b], case_.boundaries[b]);
     }
@@ -80,18 +80,11 @@ class CaseReader : public KeyReader<CaseReader> {
     const Path name = in.text(key.name, key.meaning);
     value = std::filesystem::absolute(in.file().parent_path() / name).lexically_normal();
   }
-  template <class K, class Enum>
-  requires std::is_enum_v<Enum>
-  void read_value(TableReader& in, const K& key, Enum& value) {
-    const std::size_t before = in.problem_count();
-    value = in.choice<Enum>(key.name);
-    if constexpr (std::is_same_v<Enum, Geometry>) geometry_known_ = in.problem_count() == before;
-  }
   template <class K>
   void read_value(TableReader& in, const K& key, Vector& value) {
     // Without a geometry two components are as good as three.
     const Length length = key.components == Components::three ? exactly(3)
-                          : geometry_known_                   ? exactly(dimensions())
+                          : geometry_known(in)                ? exactly(dimensions())
                                                               : Length{1, 3};
     const std::vector<double> numbers = in.numbers(key.name, quantity(key), length);
     std::copy_n(numbers.begin(), std::min(numbers.size(), value.size()), value.begin());
@@ -102,7 +95,7 @@ class CaseReader : public KeyReader<CaseReader> {
     if (given.text.empty()) return given.number;
     try {
       const int all = 3;  // without a geometry
-      return Varying(std::make_shared<const Formula>(given.text, geometry_known_ ? case_.dimensions() : all,
+      return Varying(std::make_shared<const Formula>(given.text, geometry_known(in) ? case_.dimensions() : all,
                                                      std::is_same_v<Config, EdgeConfig>));
     } catch (const std::invalid_argument& error) {
       in.problem(key.name, std::string(error.what()) + "; or give " + allowed_texts(key.unit));
@@ -115,7 +108,7 @@ class CaseReader : public KeyReader<CaseReader> {
   }
   template <class K>
   void read_value(TableReader& in, const K& key, VaryingVector& value) {
-    const Length length = geometry_known_ ? exactly(dimensions()) : Length{1, 3};
+    const Length length = geometry_known(in) ? exactly(dimensions()) : Length{1, 3};
     const std::vector<NumberOrText> given = in.numbers_or_texts(key.name, quantity(key), length);
     for (std::size_t a = 0; a < std::min(given.size(), value.components.size()); ++a)
       value.components[a] = varying(in, key, given[a]);
@@ -130,7 +123,9 @@ class CaseReader : public KeyReader<CaseReader> {
   }
   template <class K>
   void read_value(TableReader& in, const K& key, ShapePointer& value) {
+    const std::size_t before = in.problem_count();
     value = read_shape(in, key.name, key.meaning);
+    if (in.problem_count() > before) value = nullptr;  // what it fills is unknown
   }
   template <class K>
   void read_value(TableReader& in, const K& key, InitialVelocity& value) {
@@ -147,19 +142,20 @@ class CaseReader : public KeyReader<CaseReader> {
   template <class K>
   void read_value(TableReader& in, const K& key, std::optional<GasConfig>& value) {
     TableReader table = in.table(key.name);
-    const std::size_t before = in.problem_count();
     read_keys(table, value.emplace());
-    if (in.problem_count() == before && geometry_known_) gas::check_gas(table, case_);
+    gas::check_gas(table, case_);
   }
   template <class K, class Config>
   void read_value(TableReader& in, const K& key, std::vector<Config>& value) {
-    for (TableReader& table : in.tables(key.name)) {
-      const std::size_t before = in.problem_count();
+    std::vector<TableReader> tables = in.tables(key.name);
+    if (key.required && tables.empty() && in.sound({key.name}))
+      in.problem(key.name, fmt::format("missing: {}; begin one by [[{}]]", key.meaning, in.path_of(key.name)));
+    for (TableReader& table : tables) {
       if constexpr (std::is_same_v<Config, BodyConfig> || std::is_same_v<Config, FluidConfig>)
         table.optional_texts("material_changes");  // read_case applied them
       Config config{};
       read_keys(table, config);
-      if (in.problem_count() == before && geometry_known_) check(table, config, value);
+      check(table, config, value);
       value.push_back(std::move(config));
     }
   }
@@ -233,7 +229,7 @@ class CaseReader : public KeyReader<CaseReader> {
     }
     if (form == "box") {
       const auto box = read_struct<Box>(table);
-      for (std::size_t k = 0; k < dimensions() && in.problem_count() == before; ++k)
+      for (std::size_t k = 0; geometry_known(in) && k < dimensions() && in.problem_count() == before; ++k)
         if (!(box.lower[k] < box.upper[k]))
           table.problem("upper", fmt::format("along {} it is {}, not above the lower corner's {}", axis_names[k],
                                              in_metres(box.upper[k]), in_metres(box.lower[k])));
@@ -289,17 +285,25 @@ class CaseReader : public KeyReader<CaseReader> {
     gas::check(in, config, others, case_);
   }
 
+  /// Each check below is done if what it rests on is sound, whatever else is wrong: all problems are reported at once.
+
+  /// Whether names of bodies can be looked up.
+  bool names_known() const {
+    return !case_.bodies.empty() &&
+           std::none_of(case_.bodies.begin(), case_.bodies.end(), [](const BodyConfig& body) { return body.name.empty(); });
+  }
   /// The body that is meant: the only one if none is named.
   void resolve_body(TableReader& in, std::string& name, std::string_view whose) {
     if (name.empty() && case_.bodies.size() == 1) {
       name = case_.bodies.front().name;
-    } else if (name.empty()) {
+    } else if (name.empty() && names_known() && in.sound({"body"})) {
       in.problem(fmt::format("which body {} is of is unknown; give `body`", whose));
     } else {
       require_body(in, name);
     }
   }
   void require_body(TableReader& in, const std::string& name) {
+    if (!names_known() || !in.sound({"body"})) return;
     std::vector<std::string_view> names;
     for (const BodyConfig& body : case_.bodies) names.push_back(body.name);
     if (std::find(names.begin(), names.end(), name) == names.end())
@@ -309,14 +313,18 @@ class CaseReader : public KeyReader<CaseReader> {
   void check(TableReader& in, BodyConfig& body, const std::vector<BodyConfig>& others) {
     require_own_name(in, body, others);
     require_file_name(in, body.name);
-    check_extent(in, body);
-    for (const BodyConfig& other : others) check_overlap(in, body, other);
-    check_velocity(in, body.velocity);
-    if (body.porosity && !body.material.material.porosity)
+    if (body.shape && geometry_known(in)) {
+      if (in.sound({"particles_per_direction"})) check_extent(in, body);
+      for (const BodyConfig& other : others) check_overlap(in, body, other);
+    }
+    if (geometry_known(in) && in.sound({"velocity"})) check_velocity(in, body.velocity);
+    const bool material_known = in.sound({"material"});
+    if (body.porosity && material_known && !body.material.material.porosity)
       in.problem("porosity", "it would be ignored: the material has no [porosity] table");
-    if (body.damage && !body.material.material.damage)
+    if (body.damage && material_known && !body.material.material.damage)
       in.problem("damage", "it would be ignored: the material has no [damage] table");
-    if (body.strength && body.strength->weibull_modulus > 0.0 && body.strength->reference_volume == 0.0)
+    if (body.strength && in.sound({"strength"}) && body.strength->weibull_modulus > 0.0 &&
+        body.strength->reference_volume == 0.0)
       in.problem("strength", "a Weibull distribution needs the volume its median belongs to; give reference_volume");
   }
 
@@ -336,7 +344,7 @@ class CaseReader : public KeyReader<CaseReader> {
 
   /// What is filled twice would weigh twice and push itself apart.
   void check_overlap(TableReader& in, const BodyConfig& body, const BodyConfig& other) {
-    if (!body.shape || !other.shape || !(case_.cell_size > 0.0)) return;
+    if (!other.shape || !(case_.cell_size > 0.0)) return;
     const Shape both{Intersection{{body.shape, other.shape}}};
     const int particles = std::max(body.particles_per_direction, other.particles_per_direction);
     const double spacing = case_.cell_size / (particles * samples_per_direction);
@@ -365,30 +373,33 @@ class CaseReader : public KeyReader<CaseReader> {
 
   void check(TableReader& in, BoundaryConfig& boundary, const std::vector<BoundaryConfig>& others) {
     const std::size_t axis = static_cast<std::size_t>(boundary.axis);
-    require_component_in_geometry(in, boundary.axis, case_);
-    if (boundary.name.empty())
+    const bool kind_known = in.sound({"kind"}), axis_known = geometry_known(in) && in.sound({"axis"});
+    if (axis_known) require_component_in_geometry(in, boundary.axis, case_);
+    if (boundary.name.empty() && in.sound({"name", "kind", "axis", "side"}))
       boundary.name = fmt::format("{}_{}_{}", choices<BoundaryKind>[static_cast<std::size_t>(boundary.kind)], axis_names[axis],
                                   choices<Side>[static_cast<std::size_t>(boundary.side)]);
     require_own_name(in, boundary, others);
-    if (boundary.kind == BoundaryKind::velocity && boundary.velocity.size == 0)
+    if (kind_known && boundary.kind == BoundaryKind::velocity && boundary.velocity.size == 0)
       in.problem("velocity", "missing: how the boundary moves, for its kind is velocity");
-    if (boundary.kind != BoundaryKind::velocity && boundary.kind != BoundaryKind::rigid_wall && boundary.velocity.size > 0)
+    if (kind_known && boundary.kind != BoundaryKind::velocity && boundary.kind != BoundaryKind::rigid_wall &&
+        boundary.velocity.size > 0)
       in.problem("velocity", "it would be ignored: the kind is neither velocity nor rigid_wall");
-    if (boundary.kind != BoundaryKind::rigid_wall && boundary.friction > 0.0)
+    if (kind_known && boundary.kind != BoundaryKind::rigid_wall && boundary.friction > 0.0)
       in.problem("friction", "it would be ignored: the kind is not rigid_wall");
-    if (axis >= dimensions() || !(case_.cell_size > 0.0)) return;
+    if (!axis_known || axis >= dimensions() || !in.sound({"position"}) || !(case_.cell_size > 0.0)) return;
     const double cells = boundary.position / case_.cell_size;
     if (std::abs(cells - std::round(cells)) > round_off * std::max(1.0, std::abs(cells)))
       in.problem("position",
                  fmt::format("{} is on no plane of nodes; the nearest are {} and {}", in_metres(boundary.position),
                              in_metres(std::floor(cells) * case_.cell_size), in_metres(std::ceil(cells) * case_.cell_size)));
+    if (!in.sound({"side"})) return;
     for (const BodyConfig& body : case_.bodies) check_side(in, boundary, axis, body);
   }
 
   /// In two dimensions the filled part of a sub-cell is known in sixteenths.
   void check_trimming(TableReader& in, const NumericsConfig& numerics) {
     constexpr double least = 1.0 / (samples_per_direction * samples_per_direction);
-    if (geometry_known_ && dimensions() == 2 && numerics.trimming && *numerics.trimming > 0.0 && *numerics.trimming < least)
+    if (geometry_known(in) && dimensions() == 2 && numerics.trimming && *numerics.trimming > 0.0 && *numerics.trimming < least)
       in.problem("trimming",
                  fmt::format("it would be ignored: in two dimensions a sub-cell is sampled in {} places; give 0, or "
                              "{} and more",
@@ -397,6 +408,7 @@ class CaseReader : public KeyReader<CaseReader> {
 
   /// Figures are coloured by one number of each particle.
   void check_figure_field(TableReader& in, const std::string& field) {
+    if (!in.sound({"figure_field"})) return;
     if (case_.gas) {
       if (in.has("figure_field")) gas::check_fields(in, {field}, case_, "figure_field");
       return;
@@ -449,6 +461,7 @@ class CaseReader : public KeyReader<CaseReader> {
 
   void check(TableReader& in, LoadConfig& load, const std::vector<LoadConfig>&) {
     resolve_body(in, load.body, "the load");
+    if (!in.sound({"pressure", "traction"})) return;
     const bool traction = load.traction != Vector{};
     if (load.pressure.has_value() == traction)
       in.problem(traction ? "there are a pressure and a traction; give one of the two in each [[load]]"
@@ -462,11 +475,13 @@ class CaseReader : public KeyReader<CaseReader> {
     check_surface(in, gauge);
     if (!gauge.body.empty()) require_body(in, gauge.body);
     if (case_.gas) return gas::check_gauge(in, gauge, case_);
-    check_place(in, gauge);
+    const bool kind_known = in.sound({"kind"}), places_known = geometry_known(in) && in.sound({"from", "to"});
+    if (kind_known && places_known && in.sound({"axis"})) check_place(in, gauge);
     for (const std::string& field : gauge.fields)
-      if (std::find(gauge_fields.begin(), gauge_fields.end(), field) == gauge_fields.end())
+      if (!field.empty() && std::find(gauge_fields.begin(), gauge_fields.end(), field) == gauge_fields.end())
         in.problem("fields", in_quotes(field) + " cannot be recorded; it must be one of " + listed(gauge_fields) +
                                  did_you_mean(field, gauge_fields));
+    if (!kind_known || !places_known) return;
     if (gauge.kind == GaugeKind::plane)
       for (std::size_t k = 0; k < dimensions(); ++k)
         if (!(gauge.from[k] < gauge.to[k]))
@@ -490,17 +505,21 @@ class CaseReader : public KeyReader<CaseReader> {
     };
     if (case_.geometry == Geometry::axisymmetric && place.upper[0] < 0.0 && !sought_along(0))
       return in.problem("from", "x = " + in_metres(place.upper[0]) + "; a radius is not negative");
-    for (const BoundaryConfig& b : case_.boundaries) {
+    for (std::size_t n = 0; n < case_.boundaries.size(); ++n) {
+      const BoundaryConfig& b = case_.boundaries[n];
       const auto axis = static_cast<std::size_t>(b.axis);
-      if (travels(case_, b)) continue;
+      if (!in.sound_in_file({fmt::format("boundary.{}", n)}) || travels(case_, b)) continue;
       if (b.side == Side::above ? place.upper[axis] >= b.position : place.lower[axis] <= b.position) continue;
       if (!sought_along(axis))
         return in.problem("from", fmt::format("it lies beyond the boundary {} at {} = {}, where there is never any material",
                                               in_quotes(b.name), axis_names[axis], in_metres(b.position)));
     }
-    if (!gauge.moves.value_or(true) || gauge.kind == GaugeKind::surface || case_.bodies.empty()) return;
+    if (!gauge.moves.value_or(true) || gauge.kind == GaugeKind::surface || !in.sound({"moves", "body"})) return;
+    if (!names_known() || !(case_.cell_size > 0.0)) return;
+    for (const BodyConfig& body : case_.bodies)
+      if (!body.shape) return;
     const bool starts_in_material = std::any_of(case_.bodies.begin(), case_.bodies.end(), [&](const BodyConfig& body) {
-      return body.shape && (gauge.body.empty() || body.name == gauge.body) && is_near(*body.shape, gauge, place);
+      return (gauge.body.empty() || body.name == gauge.body) && is_near(*body.shape, gauge, place);
     });
     if (!starts_in_material)
       in.problem("from", fmt::format("{} is more than a cell away from {}; what moves with the material starts in it: give "
@@ -528,8 +547,9 @@ class CaseReader : public KeyReader<CaseReader> {
   /// A surface is sought along an axis and goes with the material; the other kinds know neither axis nor side.
   void check_surface(TableReader& in, const GaugeConfig& gauge) {
     if (gauge.axis) require_component_in_geometry(in, *gauge.axis, case_);
+    if (!in.sound({"kind"})) return;
     const bool surface = gauge.kind == GaugeKind::surface;
-    if (surface && !gauge.axis) in.problem("axis", "missing: the direction in which the surface is sought");
+    if (surface && !in.has("axis")) in.problem("axis", "missing: the direction in which the surface is sought");
     if (surface && gauge.moves) in.problem("moves", "it would be ignored: a surface is where the material ends");
     if (!surface && gauge.axis) in.problem("axis", "it would be ignored: the kind is not surface");
     if (!surface && gauge.side) in.problem("side", "it would be ignored: the kind is not surface");
@@ -537,27 +557,27 @@ class CaseReader : public KeyReader<CaseReader> {
 
   void check(TableReader& in, MeasureConfig& measure, const std::vector<MeasureConfig>& others) {
     resolve_body(in, measure.body, "the measure");
-    require_component_in_geometry(in, measure.axis, case_);
-    if (measure.name.empty()) {
+    if (in.sound({"axis"})) require_component_in_geometry(in, measure.axis, case_);
+    const bool kind_known = in.sound({"kind"});
+    if (measure.name.empty() && kind_known && in.sound({"name", "at"})) {
       measure.name = choices<MeasureKind>[static_cast<std::size_t>(measure.kind)];
       if (measure.kind == MeasureKind::diameter_at) measure.name += fmt::format("_{}", measure.at);
     }
     require_own_name(in, measure, others);
-    if ((measure.kind == MeasureKind::diameter_at) != (measure.at > 0.0))
+    if (kind_known && in.sound({"at"}) && (measure.kind == MeasureKind::diameter_at) != (measure.at > 0.0))
       in.problem("at", measure.at > 0.0 ? "it would be ignored: the kind is not diameter_at"
                                         : "missing: where along the initial length, > 0 and up to 1");
-    if ((measure.kind == MeasureKind::profile_error) == measure.profile.empty())
+    if (kind_known && in.sound({"profile"}) && (measure.kind == MeasureKind::profile_error) == measure.profile.empty())
       in.problem("profile", measure.profile.empty() ? "missing: the CSV file of the measured profile"
                                                     : "it would be ignored: the kind is not profile_error");
-    if (measure.kind == MeasureKind::profile_error && measure.measured)
+    if (kind_known && measure.kind == MeasureKind::profile_error && measure.measured)
       in.problem("measured", "the error against the measured profile would be zero; remove it");
-    if (!measure.profile.empty()) {
+    if (!measure.profile.empty() && in.sound({"profile"})) {
       try {
-        const CsvFile csv = CsvFile::load(measure.profile);
-        static_cast<void>(csv.numbers("radius", Unit::m)), static_cast<void>(csv.numbers("height", Unit::m));
+        static_cast<void>(read_profile(measure.profile));
       } catch (const InputError& error) {
         in.problem("profile", "its file cannot be used");
-        in.add_problems(error.problems());
+        in.add_problems("profile", error.problems());
       }
     }
   }
@@ -567,26 +587,25 @@ class CaseReader : public KeyReader<CaseReader> {
     require_file_name(in, figure.name);
     if (!figure.body.empty() && case_.gas) in.problem("body", "it would be ignored: it is a figure of the gas");
     if (!figure.body.empty() && !case_.gas) require_body(in, figure.body);
-    const std::size_t before = in.problem_count();
     if (case_.gas) gas::check_fields(in, figure.fields, case_), gas::check_in_box(in, figure.from, figure.to, case_);
     const std::span drawable = std::span(gauge_fields).subspan(1);  // all but the position
     for (const std::string& field : figure.fields)
-      if (!case_.gas && std::find(drawable.begin(), drawable.end(), field) == drawable.end())
+      if (!case_.gas && !field.empty() && std::find(drawable.begin(), drawable.end(), field) == drawable.end())
         in.problem("fields", in_quotes(field) + " cannot be drawn; it must be one of " + listed(drawable) +
                                  did_you_mean(field, drawable));
-    if (figure.fields.empty()) in.problem("fields", "there is nothing to draw; give one or more of " + listed(drawable));
-    if (figure.from == figure.to) in.problem("to", "it is where `from` is; a line has a length");
-    if (in.problem_count() > before || figure.reference.empty()) return;
+    if (figure.fields.empty() && in.sound({"fields"}))
+      in.problem("fields", "there is nothing to draw; give one or more of " + listed(drawable));
+    if (in.sound({"from", "to"}) && figure.from == figure.to) in.problem("to", "it is where `from` is; a line has a length");
+    if (figure.reference.empty() || !in.sound({"fields", "from", "to", "reference"})) return;
     try {
       static_cast<void>(read_reference(figure));
     } catch (const InputError& error) {
       in.problem("reference", "its file cannot be used");
-      in.add_problems(error.problems());
+      in.add_problems("reference", error.problems());
     }
   }
 
   Case case_;
-  bool geometry_known_ = true;
 };
 
 /// A change of a value of a material file that a body asks for.

@@ -232,8 +232,8 @@ inline constexpr auto keys<GasConfig> = std::tuple{
     Key{"least_mach", &GasConfig::least_mach, Unit::one,
         "Mach number below which the damping of slow flow falls no further; 1: always that of a shock", fraction},
     Key{"scheme", &GasConfig::scheme, Unit::one,
-        "ice, or to compare with it the classic form of 1993, ice_classic, whose energy is in no book: it needs "
-        "gates.residual = 1"},
+        "ice, or to compare with it the classic form of 1993, ice_classic, whose energy is in no book, so that no gate "
+        "watches it unless gates.residual is given"},
     Key{"implicit", &GasConfig::implicit, Unit::one,
         "solve for the pressure of each step, so that steps may be longer than sound takes from cell to cell"},
     Key{"acoustic_courant", &GasConfig::acoustic_courant, Unit::one,
@@ -248,9 +248,9 @@ inline constexpr auto keys<GasConfig> = std::tuple{
     Key{"fluid", &GasConfig::fluids, Unit::one, "a gas or liquid", any_value, required},
     Key{"fill", &GasConfig::fills, Unit::one, "what a region holds at the start; later ones lie over earlier ones", any_value,
         required},
+    Key{"body", &GasConfig::bodies, Unit::one, "a rigid body in the gas"},  // with bodies edges are asked for farther beyond
     Key{"edge", &GasConfig::edges, Unit::one, "a side of the box that is no wall"},
-    Key{"reaction", &GasConfig::reactions, Unit::one, "a fluid burns to another"},
-    Key{"body", &GasConfig::bodies, Unit::one, "a rigid body in the gas"}};
+    Key{"reaction", &GasConfig::reactions, Unit::one, "a fluid burns to another"}};
 
 // Observation: [[gauge]], [[measure]], [[figure]], [output], [gates] -----------------------------------------------------
 
@@ -314,12 +314,14 @@ inline constexpr auto keys<FigureConfig> =
                    "columns named as the fields"}};
 
 template <>
-inline constexpr auto keys<GateConfig> =
-    std::tuple{Key{"residual", &GateConfig::residual, Unit::one,
-                   "largest part of energy, momentum and angular momentum that no book holds, over the peak", positive},
-               Key{"numerical", &GateConfig::numerical, Unit::one,
-                   "largest energy in numerical books over the peak kinetic energy", positive},
-               Key{"fastest", &GateConfig::fastest, Unit::m_per_s, "no particle may be faster", positive}};
+inline constexpr auto keys<GateConfig> = std::tuple{
+    Key{"residual", &GateConfig::residual, Unit::one,
+        "largest part of energy, momentum and angular momentum that no book holds, over the peak; 1e-10 if not given, but "
+        "for the energy of scheme ice_classic none",
+        positive},
+    Key{"numerical", &GateConfig::numerical, Unit::one, "largest energy in numerical books over the peak kinetic energy",
+        positive},
+    Key{"fastest", &GateConfig::fastest, Unit::m_per_s, "no particle may be faster", positive}};
 
 // The whole: top level, [numerics] ---------------------------------------------------------------------------------------
 

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <new>
-#include <stdexcept>
 
 #include "models/programs/files.hpp"
 #include "models/programs/progress.hpp"
@@ -22,6 +21,7 @@
 #include "simulator/output/run_directory.hpp"
 #include "simulator/output/snapshot.hpp"
 #include "simulator/solid/stress.hpp"
+#include "simulator/step_failure.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
 
@@ -30,11 +30,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Path = std::filesystem::path;
-
-/// The run cannot go on; what() says why.
-struct RunFailure : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// How often an interval fits into a time; what is due at a time depends on nothing else.
 std::int64_t count(double time, double interval) {
@@ -78,6 +73,7 @@ class Run {
     log_.line(fmt::format("{}: {} {}s, {} thread{}", case_.title, count_points(s_), name_of_points(s_), threads,
                           threads == 1 ? "" : "s"));
     for (const std::string& warning : options_.warnings) log_.line("warning: " + warning);
+    if (const std::string what = not_gated(case_.gates, s_); !what.empty()) log_.line("not gated: " + what);
     if (s_.gas.implicit)
       log_.line(
           "gas.implicit: pressures are found by iteration, so the last digits of the results may differ from machine to "
@@ -121,7 +117,7 @@ class Run {
       result.ending = interrupted_ ? Ending::interrupted : Ending::done;
     } catch (const std::exception& error) {
       result.ending = Ending::failed;
-      const bool good = dynamic_cast<const RunFailure*>(&error) || dynamic_cast<const gas::BodiesMeet*>(&error);
+      const bool good = dynamic_cast<const StepFailure*>(&error) != nullptr;
       result.message = dynamic_cast<const std::bad_alloc*>(&error) ? "there is not enough memory" : error.what();
       result.message += foreseen_by_now() + "\n" + keep_last_state(good);
     }
@@ -206,7 +202,7 @@ class Run {
     StepSize size = next_step(s_, case_.numerics, end_);
     for (int rejections = 0;; ++rejections, size.dt *= 0.5) {
       if (is_too_small(size) || (rejections > 0 && size.dt < smallest_step()))
-        throw RunFailure(fmt::format(
+        throw StepFailure(fmt::format(
             "step {} at {:.6g} s would have to be {:.4g} s{}; it is limited by {}{}", s_.step + 1, s_.time, size.dt,
             case_.numerics.least_step > 0.0 ? fmt::format(", less than {:.4g} s", case_.numerics.least_step) : "", size.limit,
             rejections > 0 ? fmt::format(", and larger ones were rejected; {}", why_rejected(s_, 2.0 * size.dt)) : ""));
@@ -304,7 +300,7 @@ class Run {
     summary.wall_time = log_.wall_time(), summary.threads = omp_get_max_threads();
     summary.particle_steps_per_second = static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds;
     summary.books = books_of(s_);
-    summary.measures = measures_.read(s_);
+    summary.measures = measures_.read(s_), summary.not_gated = not_gated(case_.gates, s_);
     if (history_) summary.peaks = peaks_of(read_gauges(case_, options_.directory));
   }
 
@@ -352,6 +348,7 @@ RunResult resume(const Case& c, Simulation& s, const RunOptions& options) {
 
 Summary report(const Case& c, Simulation& s, const Path& directory) {
   const Measures measures(c, s);
+  const Of of = tells_of_failure(directory / "summary.json") ? Of::failed_run : Of::good_run;
   std::vector<std::string> troubles;
   const Restored restored = restore_newest(directory, s, [&](const std::string& trouble) { troubles.push_back(trouble); });
   Summary summary{c.title,
@@ -364,8 +361,11 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   0.0,
                   omp_get_max_threads(),
                   books_of(s),
-                  measures.read(s)};
-  for (auto& found : {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory)})
+                  measures.read(s),
+                  {},
+                  not_gated(c.gates, s)};
+  for (auto& found :
+       {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory, of)})
     troubles.insert(troubles.end(), found.begin(), found.end());
   summary.message = fmt::format("{}", fmt::join(troubles, "\n"));
   return summary;

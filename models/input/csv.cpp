@@ -4,7 +4,6 @@
 #include <set>
 #include <utility>
 
-#include "models/input/diagnostics.hpp"
 #include "models/input/toml_tree.hpp"
 #include "models/input/units.hpp"
 
@@ -140,6 +139,28 @@ std::vector<std::string> CsvFile::texts(std::string_view column) const {
   std::vector<std::string> result;
   for (const Row& row : rows_) result.push_back(row.cells[index]);
   return result;
+}
+
+template <class Read>
+auto CsvColumns::or_problems(Read&& read) -> decltype(read()) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
+    return {};
+  }
+}
+
+std::vector<double> CsvColumns::numbers(std::string_view column, Unit unit) {
+  return or_problems([&] { return file_.numbers(column, unit); });
+}
+
+std::vector<std::string> CsvColumns::texts(std::string_view column) {
+  return or_problems([&] { return file_.texts(column); });
+}
+
+void CsvColumns::finish() const {
+  if (!problems_.empty()) throw InputError(problems_);
 }
 
 }  // namespace brisance

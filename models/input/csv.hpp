@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "models/input/diagnostics.hpp"
 #include "models/parameters.hpp"
 
 namespace brisance {
@@ -48,6 +50,31 @@ class CsvFile {
   std::vector<Column> columns_;
   std::vector<Row> rows_;
   int header_line_ = 0;
+};
+
+/// The columns of a file as they are asked for; what is wrong with any of them is collected.
+class CsvColumns {
+ public:
+  /// Throws InputError as CsvFile::load.
+  explicit CsvColumns(const std::filesystem::path& path) : file_(CsvFile::load(path)) {}
+
+  const CsvFile& file() const { return file_; }
+  // Empty where something is wrong.
+  std::vector<double> numbers(std::string_view column, Unit unit);
+  std::vector<std::string> texts(std::string_view column);
+  /// Something is wrong with the file as a whole.
+  void problem(std::string what) { problems_.push_back({file_.path().string(), 0, 0, "", std::move(what)}); }
+
+  const std::vector<Problem>& problems() const { return problems_; }
+  /// Throws InputError if there is any problem.
+  void finish() const;
+
+ private:
+  template <class Read>
+  auto or_problems(Read&& read) -> decltype(read());
+
+  CsvFile file_;
+  std::vector<Problem> problems_;
 };
 
 }  // namespace brisance

@@ -67,6 +67,17 @@ TableReader InputFile::top() {
   return TableReader(this, &table, "", root_.place);
 }
 
+bool InputFile::is_sound(std::string_view path) const {
+  const auto within = [](std::string_view inner, std::string_view outer) {
+    return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
+  };
+  const auto any = [](const std::vector<std::string>& paths, auto&& concerns) {
+    return std::any_of(paths.begin(), paths.end(), concerns);
+  };
+  return !any(unreadable_, [&](const std::string& wrong) { return within(wrong, path) || within(path, wrong); }) &&
+         !any(refused_, [&](const std::string& wrong) { return within(wrong, path); });
+}
+
 void InputFile::report_override(std::string_view key, std::string what) {
   problems_.push_back({"--set " + printable(key), 0, 0, "", std::move(what)});
 }

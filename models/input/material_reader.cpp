@@ -314,10 +314,10 @@ MaterialFile resolve_material(TableReader& table, std::string_view key) {
     for (const std::string& assignment : overrides) input.set(assignment);
     TableReader top = input.top();
     MaterialFile file = read_material(top);
-    table.add_problems(input.problems());
+    table.add_problems(key, input.problems());
     return file;
   } catch (const InputError& error) {
-    table.add_problems(error.problems());
+    table.add_problems(key, error.problems());
     return {};
   }
 }

@@ -32,11 +32,21 @@ std::string describe(Length length) {
 
 // --- Reporting --------------------------------------------------------------------------------------------------------
 
-void TableReader::report(Place place, const std::string& path, std::string what) {
+void TableReader::note(Place place, const std::string& path, std::string what) {
   if (place.line == Place::command_line)
     owner_->problems_.push_back({"--set " + path, 0, 0, "", std::move(what)});
   else
     owner_->problems_.push_back({owner_->path_.string(), place.line, place.column, path, std::move(what)});
+}
+
+void TableReader::report(Place place, const std::string& path, std::string what) {
+  note(place, path, std::move(what));
+  owner_->unreadable_.push_back(path);
+}
+
+void TableReader::refuse(Place place, const std::string& path, std::string what) {
+  note(place, path, std::move(what));
+  owner_->refused_.push_back(path);
 }
 
 void TableReader::wrong_type(const TomlNode& node, const std::string& path, const std::string& required) {
@@ -45,15 +55,16 @@ void TableReader::wrong_type(const TomlNode& node, const std::string& path, cons
 
 void TableReader::problem(std::string_view key, std::string what) {
   const TomlEntry* const entry = table_ ? table_->find(key) : nullptr;
-  report(entry ? entry->node.place : place_, path_of(key), std::move(what));
+  refuse(entry ? entry->node.place : place_, path_of(key), std::move(what));
 }
 
 void TableReader::problem(std::string what) {
-  report(place_, path_, std::move(what));
+  refuse(place_, path_, std::move(what));
 }
 
-void TableReader::add_problems(std::span<const Problem> problems) {
+void TableReader::add_problems(std::string_view key, std::span<const Problem> problems) {
   owner_->other_problems_.insert(owner_->other_problems_.end(), problems.begin(), problems.end());
+  if (!problems.empty()) owner_->refused_.push_back(path_of(key));
 }
 
 void TableReader::ignore_rest() {
@@ -62,6 +73,14 @@ void TableReader::ignore_rest() {
 
 std::size_t TableReader::problem_count() const {
   return owner_->problems_.size() + owner_->other_problems_.size();
+}
+
+bool TableReader::sound(std::initializer_list<std::string_view> keys) const {
+  return table_ && std::all_of(keys.begin(), keys.end(), [&](std::string_view key) { return owner_->is_sound(path_of(key)); });
+}
+
+bool TableReader::sound_in_file(std::initializer_list<std::string_view> paths) const {
+  return std::all_of(paths.begin(), paths.end(), [&](std::string_view path) { return owner_->is_sound(path); });
 }
 
 std::string TableReader::path_of(std::string_view key) const {

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -112,12 +113,17 @@ class TableReader {
   /// Reports a problem with a key that is there, or with this table.
   void problem(std::string_view key, std::string what);
   void problem(std::string what);
-  /// Adds the problems of another file that this one names.
-  void add_problems(std::span<const Problem> problems);
+  /// Adds the problems of another file that this key names.
+  void add_problems(std::string_view key, std::span<const Problem> problems);
   /// Do not report keys of this table that nobody asked for: what they mean is unknown since something else went wrong.
   void ignore_rest();
   /// How many problems have been reported in this file so far.
   std::size_t problem_count() const;
+  /// Whether nothing has been found wrong so far with these keys of this table, nor with what is within them. A check rests on
+  /// some keys, and is done if they are sound, whatever else is wrong.
+  bool sound(std::initializer_list<std::string_view> keys) const;
+  /// The same of keys of the file, by their paths: "gas.fluid.0".
+  bool sound_in_file(std::initializer_list<std::string_view> paths) const;
 
   /// The place of a key as overrides name it: "flow_stress.A".
   std::string path_of(std::string_view key) const;
@@ -135,6 +141,8 @@ class TableReader {
   TomlNode* read(std::string_view key);
   TomlNode* require(std::string_view key, std::string_view meaning, const std::string& allowed);
   void report(Place place, const std::string& path, std::string what);
+  void refuse(Place place, const std::string& path, std::string what);
+  void note(Place place, const std::string& path, std::string what);
   void wrong_type(const TomlNode& node, const std::string& path, const std::string& required);
   std::optional<double> number_in(const TomlNode& node, const std::string& path, const Quantity& quantity);
   NumberOrText number_or_text_in(const TomlNode& node, const std::string& path, const Quantity& quantity);
@@ -178,11 +186,14 @@ class InputFile {
   };
   void report_unread(const TomlTable& table, const std::string& path);
   void report_override(std::string_view key, std::string what);
+  bool is_sound(std::string_view path) const;
 
   TomlNode root_;
   std::filesystem::path path_;
   std::vector<Problem> problems_;
   std::vector<Problem> other_problems_;  // of files that this one names
+  std::vector<std::string> unreadable_;  // paths of values that are missing or not what they must be, so nothing is within them
+  std::vector<std::string> refused_;     // paths of values, or of tables, that a check refused
   std::vector<Override> pending_;        // overrides that lead into files that this one names
 };
 

@@ -145,16 +145,18 @@ void send_polygons(Gnuplot& plot, const Curve& curve) {
 void draw_panel(Gnuplot& plot, const Panel& panel) {
   plot << "set title " << plain(panel.title) << " font ',12'\n";
   plot << "set xlabel " << quoted_text(panel.x_label) << "\nset ylabel " << quoted_text(panel.y_label) << "\n";
-  const auto height = panel.logarithmic_y || panel.y_range ? panel.y_range : level_range(extremes(panel.curves, &Curve::y));
+  const std::array<double, 2> heights = panel.y_range.value_or(extremes(panel.curves, &Curve::y));
+  const auto level = panel.logarithmic_y ? std::nullopt : level_range(heights);
+  const auto height = level ? level : panel.y_range;
   plot << "set xrange " << range(panel.x_range) << "\nset yrange " << range(height) << "\n";
   plot << (panel.logarithmic_x ? "set logscale x\nset format x '10^{%L}'\n" : "unset logscale x\nset format x '%g'\n");
   plot << (panel.logarithmic_y ? "set logscale y\n" : "unset logscale y\n");
   plot << fmt::format("set xtics {} font ',10'\n", tic_step(panel));
   plot << (panel.equal_axes ? "set size ratio -1\n" : "set size noratio\n");
   const bool shaded = std::any_of(panel.curves.begin(), panel.curves.end(), is_shaded);
-  const std::array<double, 2> values = extremes(panel.curves, &Curve::values);
+  const std::array<double, 2> values = panel.colour_range.value_or(extremes(panel.curves, &Curve::values));
   std::optional<std::array<double, 2>> colours = level_range(values);
-  if (shaded && !colours)  // shades need to know it
+  if ((shaded || panel.colour_range) && !colours)  // shades need to know it
     colours = std::isfinite(values[0]) && std::isfinite(values[1]) ? values : std::array{0.0, 1.0};
   plot << "set cbrange " << range(colours) << "\n";
   if (!panel.scale_label.empty())

@@ -32,11 +32,12 @@ struct Panel {
   std::vector<Curve> curves{};
   std::optional<std::array<double, 2>> x_range{}, y_range{};
   bool logarithmic_x = false, logarithmic_y = false;
-  bool equal_axes = false;          // one unit is as long along x as along y
-  std::string scale_label{};        // of the colours of values
-  bool wide = false;                // takes a row of its own
-  double height = 1.0;              // of its row, in units of Figure::panel_height
-  std::string legend = "top left";  // gnuplot's words for its place
+  bool equal_axes = false;                              // one unit is as long along x as along y
+  std::string scale_label{};                            // of the colours of values
+  std::optional<std::array<double, 2>> colour_range{};  // values beyond it have the colours of its ends
+  bool wide = false;                                    // takes a row of its own
+  double height = 1.0;                                  // of its row, in units of Figure::panel_height
+  std::string legend = "top left";                      // gnuplot's words for its place
   int legend_width = 0;  // characters kept free on the right, so that panels above each other are as wide; 0: as it needs
 };
 

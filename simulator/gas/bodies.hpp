@@ -5,12 +5,12 @@
 
 #include <functional>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "simulator/gas/redistribution.hpp"
 #include "simulator/ledger.hpp"
+#include "simulator/step_failure.hpp"
 
 namespace brisance::simulator::gas {
 
@@ -70,8 +70,8 @@ struct Received {
 };
 
 /// A body is about to run into something, and the gas between has nowhere to go: what() says which body, into what, and when.
-struct BodiesMeet : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct BodiesMeet : StepFailure {
+  using StepFailure::StepFailure;
 };
 
 struct Bodies {

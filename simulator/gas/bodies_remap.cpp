@@ -106,7 +106,9 @@ std::int64_t find_passing(Gas& gas, double dt, std::size_t axis) {
     }
     const Leaving leaving = leaving_with_momentum(giving.up, part, density, steepness, giving.of(s.energy), Lanes(1.0));
     if (any(leaving.too_steep))
-      flattened += count_own(gas, leaving.too_steep & !none_passes, giving.up, giving.low, giving.high);
+      flattened += count_own(
+          gas, leaving.too_steep & !none_passes & noticeable(steepness, giving.of(s.primitive[Primitive::sound_speed])),
+          giving.up, giving.low, giving.high);
     Lanes kinetic(0.0);
     for (std::size_t a = 0; a < D; ++a) {
       const Lanes u = giving.of(s.velocity[a]) + leaving.offset * slopes[a];

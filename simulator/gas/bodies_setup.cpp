@@ -137,10 +137,10 @@ MovingBody make_body(const Case& c, const GasBodyConfig& config) {
   return body;
 }
 
-std::vector<std::string> faults_of_bodies(const Case& c) {
+std::vector<std::string> overlaps_of_bodies(const Case& c) {
   std::vector<std::string> faults;
   const std::vector<GasBodyConfig>& bodies = c.gas->bodies;
-  for (std::size_t n = 0; n < bodies.size(); ++n) {
+  for (std::size_t n = 0; n < bodies.size(); ++n)
     for (std::size_t m = 0; m < n; ++m) {
       const Shape both{Intersection{{bodies[m].shape, bodies[n].shape}}};
       const double shared = volume(both, c.geometry, c.cell_size / bodies[n].particles_per_direction / samples_per_direction);
@@ -152,8 +152,14 @@ std::vector<std::string> faults_of_bodies(const Case& c) {
                       "or make them one body, a union",
                       bodies[m].name, bodies[n].name, middle[0], middle[1], middle[2]));
     }
-    if (!may_not_show(c, bodies[n])) continue;
-    const double fullest = fullest_node(c, bodies[n]);
+  return faults;
+}
+
+std::vector<std::string> bodies_that_do_not_show(const Case& c) {
+  std::vector<std::string> faults;
+  for (const GasBodyConfig& body : c.gas->bodies) {
+    if (!may_not_show(c, body)) continue;
+    const double fullest = fullest_node(c, body);
     if (fullest > half_full) continue;
     // A sheet fills nodes to between 0.4 and 0.6 of its thickness in cells, as it lies between them; with 1.05 it shows
     // anywhere.
@@ -161,7 +167,7 @@ std::vector<std::string> faults_of_bodies(const Case& c) {
     faults.push_back(
         fmt::format("{} is so thin that the gas does not see it: none of the nodes of the grid is half full of it; cells of "
                     "{:.3g} m would show it; take such, or make it thicker",
-                    bodies[n].name, fullest / most_filled * c.cell_size));
+                    body.name, fullest / most_filled * c.cell_size));
   }
   return faults;
 }

@@ -31,16 +31,34 @@ std::size_t dimensions_of(const Case& c) {
 
 constexpr double least_cells = 4.0;  // across the box
 
+/// Whether geometry and box are known.
+bool box_known(const TableReader& in) {
+  return in.sound_in_file({"geometry", "cell_size", "gas.lower", "gas.upper"});
+}
 /// Whether the box is one; check_gas says so if not.
-bool holds_cells(const Case& c) {
+bool holds_cells(const TableReader& in, const Case& c) {
+  if (!box_known(in)) return false;
   for (std::size_t a = 0; a < dimensions_of(c); ++a)
     if (!(c.gas->upper[a] - c.gas->lower[a] > (least_cells - 0.5) * c.cell_size)) return false;
-  return c.cell_size > 0.0;
+  return true;
 }
 
-const FluidConfig* find_fluid(const Case& c, std::string_view name) {
-  for (const FluidConfig& fluid : c.gas->fluids)
-    if (fluid.name == name) return &fluid;
+/// Whether names of fluids can be looked up.
+bool fluids_named(const Case& c) {
+  return !c.gas->fluids.empty() &&
+         std::none_of(c.gas->fluids.begin(), c.gas->fluids.end(), [](const FluidConfig& fluid) { return fluid.name.empty(); });
+}
+/// Whether a key is sound in all tables of a list within [gas].
+bool sound_in_all(const TableReader& in, std::string_view list, std::size_t count, std::string_view key) {
+  for (std::size_t n = 0; n < count; ++n)
+    if (!in.sound_in_file({fmt::format("gas.{}.{}.{}", list, n, key)})) return false;
+  return true;
+}
+/// The fluid of this name; null if there is none, or if its material is wrong.
+const FluidConfig* find_fluid(const TableReader& in, const Case& c, std::string_view name) {
+  for (std::size_t n = 0; n < c.gas->fluids.size(); ++n)
+    if (c.gas->fluids[n].name == name)
+      return in.sound_in_file({fmt::format("gas.fluid.{}.material", n)}) ? &c.gas->fluids[n] : nullptr;
   return nullptr;
 }
 
@@ -61,7 +79,7 @@ template <class State>
 void check_gas_state(TableReader& in, State& state, const Case& c, const Elsewhere& elsewhere = {}) {
   if (state.fluid.empty() && c.gas->fluids.size() == 1) {
     state.fluid = c.gas->fluids.front().name;
-  } else {
+  } else if (in.sound({"fluid"}) && fluids_named(c)) {
     std::vector<std::string_view> names;
     for (const FluidConfig& fluid : c.gas->fluids) names.push_back(fluid.name);
     if (state.fluid.empty())
@@ -79,7 +97,8 @@ void check_gas_state(TableReader& in, State& state, const Case& c, const Elsewhe
   } else if (state.density.has_value() == state.temperature.has_value())
     in.problem(state.density ? "there are a density and a temperature; give one of the two"
                              : "neither density nor temperature is given; give one of the two");
-  else if (const FluidConfig* fluid = find_fluid(c, state.fluid); fluid && state.pressure && !varies(state))
+  else if (const FluidConfig* fluid = find_fluid(in, c, state.fluid);
+           fluid && state.pressure && !varies(state) && in.sound({"density", "temperature", "pressure"}))
     if (const std::string why = why_not(*fluid, state.pressure->number, number_of(state.density), number_of(state.temperature));
         !why.empty())
       in.problem("pressure", why);
@@ -87,33 +106,37 @@ void check_gas_state(TableReader& in, State& state, const Case& c, const Elsewhe
 
 /// The profile of a fill; nothing if it cannot be read.
 std::optional<StateProfile> check_profile(TableReader& in, const ProfileConfig& profile, const Case& c, Elsewhere& elsewhere) {
+  const auto unknown = [&]() -> std::optional<StateProfile> {  // what may stand in it is not missing
+    if (!in.has("pressure")) elsewhere.pressure = "the profile";
+    if (!in.has("density") && !in.has("temperature")) elsewhere.density = "the profile";
+    return {};
+  };
+  if (!in.sound({"profile"})) return unknown();
   const bool radius = profile.along == ProfileAlong::radius;
-  if (!radius && static_cast<std::size_t>(profile.along) >= dimensions_of(c))
+  if (geometry_known(in) && !radius && static_cast<std::size_t>(profile.along) >= dimensions_of(c))
     in.problem("profile", fmt::format("there is no {} in this geometry; give a coordinate that it has, or radius",
                                       choices<ProfileAlong>[static_cast<std::size_t>(profile.along)]));
   if (!radius && profile.centre != Vector{}) in.problem("profile", "its centre would be ignored: it is not along radius");
-  if (is_round(c.geometry) && profile.centre[0] != 0.0) in.problem("profile", "its centre lies on the axis; give x = 0");
+  if (geometry_known(in) && is_round(c.geometry) && profile.centre[0] != 0.0)
+    in.problem("profile", "its centre lies on the axis; give x = 0");
   try {
     const StateProfile read = read_state_profile(profile);
-    if (!read.velocity_around.empty() && !(radius && c.geometry == Geometry::plane))
+    if (geometry_known(in) && !read.velocity_around.empty() && !(radius && c.geometry == Geometry::plane))
       in.problem("profile", "velocity_around needs the plane geometry and along = \"radius\"");
     if (!read.density.empty()) elsewhere.density = "the profile";
     if (!read.pressure.empty()) elsewhere.pressure = "the profile";
     return read;
   } catch (const InputError& error) {
     in.problem("profile", "its file cannot be used");
-    in.add_problems(error.problems());
-    // What may stand in it is not missing.
-    if (!in.has("pressure")) elsewhere.pressure = "the profile";
-    if (!in.has("density") && !in.has("temperature")) elsewhere.density = "the profile";
-    return {};
+    in.add_problems("profile", error.problems());
+    return unknown();
   }
 }
 
 /// The first row of a profile that makes a state which the fluid does not have.
 void check_rows(TableReader& in, const FillConfig& fill, const StateProfile& profile, const Case& c) {
-  const FluidConfig* fluid = find_fluid(c, fill.fluid);
-  if (!fluid || (profile.pressure.empty() && !fill.pressure) ||
+  const FluidConfig* fluid = find_fluid(in, c, fill.fluid);
+  if (!fluid || !in.sound({"density", "temperature", "pressure"}) || (profile.pressure.empty() && !fill.pressure) ||
       (profile.density.empty() && fill.density.has_value() == fill.temperature.has_value()))
     return;
   for (std::size_t row = 0; row < profile.place.size(); ++row) {
@@ -133,13 +156,15 @@ void check_transport(TableReader& in, const GasConfig& gas) {
   };
   if (gas.heat_exchange > 0.0 && gas.fluids.size() == 1)
     in.problem("heat_exchange", "it would be ignored: there is one fluid; remove it");
+  const bool viscosities_known = sound_in_all(in, "fluid", gas.fluids.size(), "viscosity");
+  const bool conductivities_known = sound_in_all(in, "fluid", gas.fluids.size(), "conductivity");
   for (const EdgeConfig& edge : gas.edges) {
     if (edge.kind != EdgeKind::no_slip) continue;
     const std::string_view side = choices<BoxSide>[static_cast<std::size_t>(edge.side)];
-    if (!any_fluid(&FluidConfig::viscosity))
+    if (viscosities_known && !any_fluid(&FluidConfig::viscosity))
       in.problem("edge",
                  fmt::format("{}: nothing sticks to a wall without viscosity; give a fluid one, or leave the edge out", side));
-    if (edge.temperature && !any_fluid(&FluidConfig::conductivity))
+    if (edge.temperature && conductivities_known && !any_fluid(&FluidConfig::conductivity))
       in.problem("edge", fmt::format("{}: its temperature would be ignored: no fluid conducts; give one a conductivity", side));
   }
 }
@@ -153,16 +178,18 @@ void check_with_bodies(TableReader& in, const Case& c) {
   refuse(gas.implicit, "the implicit option");
   refuse(gas.scheme == GasScheme::ice_classic, "the classic scheme");
   const auto at_a_surface = [&](const ReactionConfig& reaction) {
-    const FluidConfig* reactant = find_fluid(c, reaction.reactant);
+    const FluidConfig* reactant = find_fluid(in, c, reaction.reactant);
     const auto* law = reactant ? &reactant->material.material.reaction : nullptr;
     return law && law->has_value() && has_surface(**law);
   };
   refuse(std::any_of(gas.reactions.begin(), gas.reactions.end(), at_a_surface), "a reaction at a surface");
   refuse(gas.heat_exchange > 0.0 || has_transport(gas.fluids), "viscosity or conduction");
-  const bool drawn =
-      std::all_of(gas.bodies.begin(), gas.bodies.end(), [](const GasBodyConfig& b) { return b.shape != nullptr; });
-  if (drawn && c.cell_size > 0.0 && c.dimensions() > 1)
-    for (const std::string& fault : faults_of_bodies(c)) in.problem("body", fault);
+  if (!geometry_known(in) || !(c.cell_size > 0.0) || c.dimensions() == 1) return;
+  Case drawn = c;  // with the bodies alone whose shapes are known
+  std::erase_if(drawn.gas->bodies, [](const GasBodyConfig& body) { return !body.shape; });
+  for (const std::string& fault : overlaps_of_bodies(drawn)) in.problem("body", fault);
+  if (!holds_cells(in, c) || !sound_in_all(in, "edge", gas.edges.size(), "kind")) return;
+  for (const std::string& fault : bodies_that_do_not_show(drawn)) in.problem("body", fault);
 }
 
 /// The limits of classic.hpp.
@@ -180,7 +207,8 @@ bool is_zero(const VaryingVector& velocity) {
 bool check_formulas_at(TableReader& in, const GasStateConfig& state, const Case& c, std::array<double, 3> first,
                        std::array<double, 3> last, const Shape* shape, double time = 0.0, double most_places = 1e5) {
   std::optional<Fluid> fluid;
-  if (const FluidConfig* given = find_fluid(c, state.fluid)) fluid = {given->name, given->material.material.equation_of_state};
+  if (const FluidConfig* given = find_fluid(in, c, state.fluid))
+    fluid = {given->name, given->material.material.equation_of_state};
   std::array<double, 3> step{1.0, 1.0, 1.0};  // cells; no number of cells is too large for them
   const double dimensions = c.dimensions();
   for (std::size_t a = 0; a < dimensions_of(c); ++a)
@@ -202,24 +230,26 @@ bool check_formulas_at(TableReader& in, const GasStateConfig& state, const Case&
   return false;
 }
 /// The cells of the box; what is wrong with it is reported elsewhere.
-bool find_cells(const Case& c, std::array<double, 3>& first, std::array<double, 3>& last) {
+bool find_cells(const TableReader& in, const Case& c, std::array<double, 3>& first, std::array<double, 3>& last) {
   first = {0, 0, 0}, last = {1, 1, 1};
+  if (!box_known(in)) return false;
   for (std::size_t a = 0; a < dimensions_of(c); ++a) {
-    if (!(c.cell_size > 0.0) || !(c.gas->lower[a] < c.gas->upper[a])) return false;
+    if (!(c.gas->lower[a] < c.gas->upper[a])) return false;
     first[a] = std::round(c.gas->lower[a] / c.cell_size), last[a] = std::round(c.gas->upper[a] / c.cell_size);
   }
   return true;
 }
 void check_formulas(TableReader& in, const FillConfig& fill, const Case& c) {
   std::array<double, 3> first, last;
-  if (varies(fill) && !fill.profile && !fill.energy && find_cells(c, first, last))
+  if (varies(fill) && !fill.profile && !fill.energy && find_fluid(in, c, fill.fluid) && find_cells(in, c, first, last))
     check_formulas_at(in, fill, c, first, last, fill.shape.get());
 }
 void check_formulas(TableReader& in, const EdgeConfig& edge, const Case& c) {
   std::array<double, 3> first, last;
   const double cells = c.gas->bodies.empty() ? ring : Window::depth;  // beyond the side: with bodies its neighbourhoods as well
   const std::size_t axis = static_cast<std::size_t>(edge.side) / 2;
-  if (!varies(edge) || axis >= dimensions_of(c) || !find_cells(c, first, last)) return;
+  if (!varies(edge) || !find_cells(in, c, first, last) || axis >= dimensions_of(c)) return;
+  if (edge.kind != EdgeKind::pressure && !find_fluid(in, c, edge.fluid)) return;
   if (static_cast<std::size_t>(edge.side) % 2 == 0)
     last[axis] = first[axis], first[axis] -= cells;
   else
@@ -236,7 +266,8 @@ void check_formulas(TableReader& in, const EdgeConfig& edge, const Case& c) {
 
 void check(TableReader& in, FluidConfig& fluid, const std::vector<FluidConfig>& others, const Case&) {
   require_own_name(in, fluid, others);
-  if (equation_of_state::caloric(fluid.material.material.equation_of_state) == equation_of_state::Caloric::incremental)
+  if (in.sound({"material"}) &&
+      equation_of_state::caloric(fluid.material.material.equation_of_state) == equation_of_state::Caloric::incremental)
     in.problem("material", "its equation of state gives differences of pressure only; a fluid needs p(rho, e)");
 }
 
@@ -246,7 +277,7 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
   if (fill.profile) profile = check_profile(in, *fill.profile, c, elsewhere);
   if (fill.energy) {
     if (!elsewhere.pressure.empty()) in.problem("energy", "the pressure is in the profile; give one of the two");
-    if (!fill.shape) in.problem("shape", "missing: the region that the energy is put into");
+    if (!in.has("shape")) in.problem("shape", "missing: the region that the energy is put into");
     if (!fill.density) in.problem("density", "missing: an energy needs it");
     if (varies(fill)) in.problem("energy", "it is spread over one state; a formula cannot be beside it");
     elsewhere.pressure = "the energy";
@@ -254,13 +285,14 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
   if (profile && varies(fill)) in.problem("profile", "a state varies by a profile or by formulas; give one of the two");
   const std::size_t before = in.problem_count();
   check_gas_state(in, fill, c, elsewhere);
-  if (in.problem_count() == before) check_formulas(in, fill, c);
+  if (in.problem_count() == before && in.sound({"shape", "density", "temperature", "pressure", "velocity"}))
+    check_formulas(in, fill, c);
   if (profile && !fill.energy && !varies(fill)) check_rows(in, fill, *profile, c);
-  if (others.empty() && fill.shape) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
-  if (!others.empty() && !fill.shape)
+  if (others.empty() && in.has("shape")) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
+  if (!others.empty() && !in.has("shape"))
     in.problem(
         "without a `shape` it fills all of the box, and nothing is left of those before it; give it one, or put it first");
-  if (fill.shape && holds_cells(c) &&
+  if (fill.shape && holds_cells(in, c) &&
       !may_fill(*fill.shape, c.dimensions(), {c.gas->lower, c.gas->upper}, c.cell_size / places_per_direction(c.dimensions())))
     in.problem("shape",
                fmt::format("it fills nothing: no part of it lies in the box of the gas, from ({:.6g}) to ({:.6g}) m, or it "
@@ -270,10 +302,14 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
 }
 
 void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& others, const Case& c) {
-  const auto same_side = [&](const EdgeConfig& other) { return other.side == edge.side; };
-  if (std::any_of(others.begin(), others.end(), same_side)) in.problem("side", "this side is given twice; give each once");
-  if (static_cast<std::size_t>(edge.side) / 2 >= dimensions_of(c))
+  const bool side_known = in.sound({"side"});
+  bool taken = false;
+  for (std::size_t n = 0; n < others.size(); ++n)
+    taken = taken || (others[n].side == edge.side && in.sound_in_file({fmt::format("gas.edge.{}.side", n)}));
+  if (side_known && taken) in.problem("side", "this side is given twice; give each once");
+  if (side_known && geometry_known(in) && static_cast<std::size_t>(edge.side) / 2 >= dimensions_of(c))
     in.problem("side", fmt::format("in {} dimension{} there is no such side", c.dimensions(), c.dimensions() == 1 ? "" : "s"));
+  if (!in.sound({"kind"})) return;
   // A velocity of zero says nothing: a case that a run has written holds one at every edge.
   const bool more = in.has("density") || in.has("temperature") || !is_zero(edge.velocity) || in.has("fluid");
   const std::size_t before = in.problem_count();
@@ -288,12 +324,13 @@ void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& oth
     if (in.has("pressure") || in.has("density") || in.has("fluid"))
       in.problem("of a wall only its velocity and temperature count; remove the rest");
     if (varies(edge)) in.problem("a formula would be ignored: a wall keeps its velocity and temperature; give numbers");
-    if (edge.velocity.numbers()[static_cast<std::size_t>(edge.side) / 2] != 0.0)
+    if (side_known && edge.velocity.numbers()[static_cast<std::size_t>(edge.side) / 2] != 0.0)
       in.problem("velocity", "a wall moves along itself only; make the component across it 0");
   } else if (more || in.has("pressure")) {
     in.problem("a state would be ignored: nothing comes through a wall or from beyond a period");
   }
-  if (in.problem_count() == before) check_formulas(in, edge, c);
+  if (in.problem_count() == before && in.sound({"side", "density", "temperature", "pressure", "velocity"}))
+    check_formulas(in, edge, c);
 }
 
 void check(TableReader&, IgnitionConfig&, const std::vector<IgnitionConfig>&, const Case&) {}
@@ -302,16 +339,15 @@ void check(TableReader& in, ReactionConfig& reaction, const std::vector<Reaction
   require_own_name(in, reaction, others);
   std::vector<std::string_view> names;
   for (const FluidConfig& fluid : c.gas->fluids) names.push_back(fluid.name);
-  const auto find = [&](std::string_view key, const std::string& name) -> const FluidConfig* {
-    for (const FluidConfig& fluid : c.gas->fluids)
-      if (fluid.name == name) return &fluid;
-    in.problem(key, "there is no fluid " + in_quotes(name) + "; there is " + listed(names) + did_you_mean(name, names));
-    return nullptr;
+  for (const auto& [key, name] : {std::pair{"reactant", reaction.reactant}, {"product", reaction.product}})
+    if (!name.empty() && fluids_named(c) && std::find(names.begin(), names.end(), name) == names.end())
+      in.problem(key, "there is no fluid " + in_quotes(name) + "; there is " + listed(names) + did_you_mean(name, names));
+  const FluidConfig* reactant = find_fluid(in, c, reaction.reactant);
+  if (!reaction.product.empty() && reaction.reactant == reaction.product)
+    in.problem("product", "a fluid cannot burn to itself; name another fluid");
+  const auto burns_too = [&](const ReactionConfig& other) {
+    return !other.reactant.empty() && other.reactant == reaction.reactant;
   };
-  const FluidConfig* reactant = find("reactant", reaction.reactant);
-  find("product", reaction.product);
-  if (reaction.reactant == reaction.product) in.problem("product", "a fluid cannot burn to itself; name another fluid");
-  const auto burns_too = [&](const ReactionConfig& other) { return other.reactant == reaction.reactant; };
   if (std::any_of(others.begin(), others.end(), burns_too))
     in.problem("reactant", in_quotes(reaction.reactant) + " burns in another [[gas.reaction]] already; each fluid has one law");
   if (!reactant) return;
@@ -334,18 +370,22 @@ void check(TableReader& in, ReactionConfig& reaction, const std::vector<Reaction
 void check(TableReader& in, GasBodyConfig& body, const std::vector<GasBodyConfig>& others, const Case& c) {
   require_own_name(in, body, others);
   require_file_name(in, body.name);
+  if (!geometry_known(in)) return;
   if (c.dimensions() == 1) return in.problem("in one dimension there are no bodies in the gas; take plane");
-  require_component_in_geometry(in, body.axis, c);
+  if (in.sound({"axis"})) require_component_in_geometry(in, body.axis, c);
   const bool round = is_round(c.geometry);
+  const bool motion_known = in.sound({"velocity", "rotation", "radial_velocity"});
   if (body.mass) {
     if (body.velocity != Vector{} || body.rotation != Vector{} || body.radial_velocity != 0.0 || body.amplitude)
       in.problem("mass", "the gas drives a body with a mass from rest: a motion would be ignored; remove one of the two");
-    if (round && body.axis != Axis::y) in.problem("axis", "about an axis of symmetry a body can only move along it: y");
+    if (round && in.sound({"axis"}) && body.axis != Axis::y)
+      in.problem("axis", "about an axis of symmetry a body can only move along it: y");
   } else {
     if (body.axis != Axis::x) in.problem("axis", "it would be ignored: only a body with a mass is driven along it");
     const bool turns = body.rotation != Vector{} || body.radial_velocity != 0.0;
-    if (body.centre != Vector{} && !turns) in.problem("centre", "it would be ignored: the body neither turns nor grows");
-    if (body.amplitude && !turns && body.velocity == Vector{})
+    if (motion_known && body.centre != Vector{} && !turns)
+      in.problem("centre", "it would be ignored: the body neither turns nor grows");
+    if (motion_known && body.amplitude && !turns && body.velocity == Vector{})
       in.problem("amplitude", "it would be ignored: there is no velocity that it is a factor on");
     if (round && body.velocity[0] != 0.0) in.problem("velocity", "about an axis of symmetry a body can only move along it");
     if (round && body.rotation != Vector{}) in.problem("rotation", "about an axis of symmetry a body cannot turn");
@@ -354,7 +394,7 @@ void check(TableReader& in, GasBodyConfig& body, const std::vector<GasBodyConfig
   }
   if (round && body.radial_velocity != 0.0 && body.centre[0] != 0.0)
     in.problem("centre", "about an axis of symmetry the centre of a radial motion lies on it: x = 0");
-  if ((body.radial_velocity != 0.0) != (body.radius > 0.0))
+  if (in.sound({"radial_velocity", "radius"}) && (body.radial_velocity != 0.0) != (body.radius > 0.0))
     in.problem(body.radius > 0.0 ? "radius" : "radial_velocity", body.radius > 0.0
                                                                      ? "it would be ignored: there is no radial velocity"
                                                                      : "give `radius` as well: where it is so");
@@ -362,7 +402,7 @@ void check(TableReader& in, GasBodyConfig& body, const std::vector<GasBodyConfig
 
 void check_gas(TableReader& in, const Case& c) {
   const GasConfig& gas = *c.gas;
-  for (std::size_t k = 0; k < dimensions_of(c) && c.cell_size > 0.0; ++k) {
+  for (std::size_t k = 0, count = box_known(in) ? dimensions_of(c) : 0; k < count; ++k) {
     if (!(gas.lower[k] < gas.upper[k]))
       in.problem("upper", fmt::format("along {} the box ends before it begins", axis_names[k]));
     for (const auto& [name, corner] : {std::pair{"lower", gas.lower[k]}, std::pair{"upper", gas.upper[k]}}) {
@@ -377,19 +417,21 @@ void check_gas(TableReader& in, const Case& c) {
       in.problem("upper",
                  fmt::format("along {} the box is {:.3g} cells wide; {:g} at least", axis_names[k], cells, least_cells));
   }
-  if (gas.acoustic_courant != GasConfig{}.acoustic_courant && !gas.implicit)
+  if (gas.acoustic_courant != GasConfig{}.acoustic_courant && in.sound({"implicit"}) && !gas.implicit)
     in.problem("acoustic_courant", "it would be ignored: it is the Courant number of implicit = true");
   if (gas.courant != 0.0 && gas.implicit)
     in.problem("courant", "it would be ignored: the steps of implicit = true are those of acoustic_courant");
-  if (gas.momentum_exchange != GasConfig{}.momentum_exchange && gas.scheme != GasScheme::ice_classic)
+  if (gas.momentum_exchange != GasConfig{}.momentum_exchange && in.sound({"scheme"}) && gas.scheme != GasScheme::ice_classic)
     in.problem("momentum_exchange",
                "it would be ignored: fluids of a cell have one velocity but with scheme = \"ice_classic\"");
-  if (gas.scheme == GasScheme::ice_classic) check_classic(in, c);
   check_transport(in, gas);
+  if (!geometry_known(in)) return;
+  if (gas.scheme == GasScheme::ice_classic) check_classic(in, c);
   const bool round = is_round(c.geometry);
   if (round && gas.lower[0] < 0.0) in.problem("lower", "x = " + in_metres(gas.lower[0]) + "; a radius is not negative");
   if (round && c.gravity[0] != 0.0) in.problem("lower", "gravity along the radius x is not possible");
   if (!gas.bodies.empty()) check_with_bodies(in, c);
+  if (!sound_in_all(in, "edge", gas.edges.size(), "side") || !sound_in_all(in, "edge", gas.edges.size(), "kind")) return;
   for (const EdgeConfig& edge : gas.edges) {
     const auto number = static_cast<std::size_t>(edge.side);
     const auto opposite = static_cast<BoxSide>(number ^ 1);
@@ -406,30 +448,33 @@ void check_gas(TableReader& in, const Case& c) {
 }
 
 void check_gauge(TableReader& in, GaugeConfig& gauge, const Case& c) {
-  if (gauge.kind != GaugeKind::point && gauge.kind != GaugeKind::line)
+  const bool kind_known = in.sound({"kind"});
+  if (kind_known && gauge.kind != GaugeKind::point && gauge.kind != GaugeKind::line)
     in.problem("kind", "in gas a gauge is a point or a line");
   if (gauge.moves.value_or(false)) in.problem("moves", "in gas a gauge stands still");
   if (!gauge.body.empty()) in.problem("body", "it would be ignored: in gas a gauge watches the gas alone");
   gauge.moves = false;
   check_fields(in, gauge.fields, c);
-  check_in_box(in, gauge.from, gauge.kind == GaugeKind::line ? gauge.to : gauge.from, c);
+  check_in_box(in, gauge.from, kind_known && gauge.kind == GaugeKind::line ? gauge.to : gauge.from, c);
 }
 
 void check_fields(TableReader& in, const std::vector<std::string>& wanted, const Case& c, std::string_view key) {
+  if (!fluids_named(c)) return;
   std::vector<std::string> fluids, names;
   for (const FluidConfig& fluid : c.gas->fluids) fluids.push_back(fluid.name);
   for (const Field& field : fields(c.dimensions(), fluids)) names.push_back(field.name);
   const std::vector<std::string_view> allowed(names.begin(), names.end());
   for (const std::string& field : wanted)
-    if (std::find(names.begin(), names.end(), field) == names.end())
+    if (!field.empty() && std::find(names.begin(), names.end(), field) == names.end())
       in.problem(
           key, in_quotes(field) + " is not known of gas; it must be one of " + listed(allowed) + did_you_mean(field, allowed));
 }
 
 void check_in_box(TableReader& in, const Vector& from, const Vector& to, const Case& c) {
+  if (!geometry_known(in) || !in.sound({"from", "to"})) return;
   for (std::size_t k = 0; k < dimensions_of(c); ++k)
     for (const Vector& place : {from, to})
-      if (place[k] < c.gas->lower[k] || place[k] > c.gas->upper[k])
+      if (c.gas->lower[k] < c.gas->upper[k] && (place[k] < c.gas->lower[k] || place[k] > c.gas->upper[k]))
         return in.problem("from", fmt::format("along {} it leaves the box of the gas", axis_names[k]));
 }
 

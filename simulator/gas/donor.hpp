@@ -67,6 +67,14 @@ inline Leaving leaving_with_momentum(const LanesMask& up, const Lanes& part, con
   return {offset, 1.0 - min(cost, Lanes(most * held)) / max(held, Lanes(1e-300)), too_steep};
 }
 
+/// Whether slopes that have been taken back could be noticed, and are counted: not where the velocity changes by less than a
+/// thousandth of the speed of sound (m/s) from cell to cell. What has no heat to begin with, as an explosive whose energy
+/// counts from its state at rest, pays for no slope, however small: the least sound in it would be counted.
+inline LanesMask noticeable(const Lanes& steepness, const Lanes& sound_speed) {
+  constexpr double least = 1e-3;
+  return steepness > least * least * sound_speed * sound_speed;
+}
+
 /// The part of its cell's growth in volume that a fluid takes, beside that with most volume. A little gas in a liquid would
 /// take all of it, more than it has: it takes no more than its half or double, and the rest goes to the fluid with most volume;
 /// the next equilibrium finds what is right.

@@ -21,13 +21,53 @@ namespace {
 constexpr double nowhere = -std::numeric_limits<double>::infinity();
 constexpr std::size_t most_sides = 6;
 
+/// The box of the gas: what leaves it through a periodic side comes in at the opposite one.
+class Box {
+ public:
+  explicit Box(const Case& c)
+      : dimensions_(static_cast<std::size_t>(c.dimensions())), lower_(c.gas->lower), upper_(c.gas->upper) {
+    for (const EdgeConfig& edge : c.gas->edges)
+      if (edge.kind == EdgeKind::periodic) periodic_[static_cast<std::size_t>(edge.side) / 2] = true;
+  }
+  Vector wrapped(Vector x) const {
+    for (std::size_t a = 0; a < dimensions_; ++a)
+      if (periodic_[a]) x[a] -= length(a) * std::floor((x[a] - lower_[a]) / length(a));
+    return x;
+  }
+  bool contains(const Vector& x) const {
+    for (std::size_t a = 0; a < dimensions_; ++a)
+      if (x[a] < lower_[a] || x[a] > upper_[a]) return false;
+    return true;
+  }
+  /// Points within the box, and those that they repeat within `reach` (m) beyond its periodic sides.
+  std::vector<Vector> with_images(std::vector<Vector> points, double reach) const {
+    for (std::size_t a = 0; a < dimensions_; ++a)
+      for (std::size_t p = 0, count = periodic_[a] ? points.size() : 0; p < count; ++p)
+        for (const double turns : {-1.0, 1.0}) {
+          Vector image = points[p];
+          image[a] += turns * length(a);
+          if (image[a] > lower_[a] - reach && image[a] < upper_[a] + reach) points.push_back(image);
+        }
+    return points;
+  }
+
+ private:
+  double length(std::size_t axis) const { return upper_[axis] - lower_[axis]; }
+
+  std::size_t dimensions_;
+  Vector lower_, upper_;
+  std::array<bool, 3> periodic_{};
+};
+
 /// How far the part of a body that lies beside each side of the box reaches outwards, in m beyond the side; `nowhere` if no
 /// part of it does.
 std::array<double, most_sides> reach_of(const Case& c, const MovingBody& body, double half_width) {
   std::array<double, most_sides> reach;
   reach.fill(nowhere);
   const auto D = static_cast<std::size_t>(c.dimensions());
-  for (const Vector& x : points_of(body, c.geometry, body.state, body.state, 0.0).position) {
+  const Box box(c);
+  for (const Vector& place : points_of(body, c.geometry, body.state, body.state, 0.0).position) {
+    const Vector x = box.wrapped(place);
     std::array<bool, 3> within{};
     for (std::size_t a = 0; a < D; ++a) within[a] = x[a] > c.gas->lower[a] && x[a] < c.gas->upper[a];
     for (std::size_t a = 0; a < D; ++a) {
@@ -217,6 +257,7 @@ void foresee_bodies_that_meet(const Case& c, std::vector<ForeseenMeeting>& meeti
       if (!known || has_motion(bodies[n].motion) || has_motion(bodies[m].motion)) approaches.emplace_back(m, n, width, known);
     }
   if (approaches.empty()) return;
+  const Box box(c);
   constexpr double most_particles = 2e6;  // a part of a second
   const int looks = static_cast<int>(std::clamp(most_particles / static_cast<double>(particles), 50.0, 400.0));
   for (int n = 0; n <= looks; ++n) {
@@ -225,14 +266,13 @@ void foresee_bodies_that_meet(const Case& c, std::vector<ForeseenMeeting>& meeti
       const double step = c.end_time / looks;
       if (n > 0 && body.mass == 0.0) body.state = moved(body, (n - 1) * step, step);
       points.push_back(points_of(body, c.geometry, body.state, body.state, 0.0).position);
-      std::erase_if(points.back(), [&](const Vector& x) {
-        for (std::size_t a = 0; a < static_cast<std::size_t>(c.dimensions()); ++a)
-          if (x[a] < c.gas->lower[a] || x[a] > c.gas->upper[a]) return true;
-        return false;
-      });
+      for (Vector& x : points.back()) x = box.wrapped(x);
+      std::erase_if(points.back(), [&](const Vector& x) { return !box.contains(x); });
     }
     for (Approach& approach : approaches) {
-      const auto &one = points[approach.bodies.first], &other = points[approach.bodies.second];
+      const double farthest = 2.0 * c.cell_size;  // that it looks
+      const std::vector<Vector> one = box.with_images(points[approach.bodies.first], farthest);
+      const std::vector<Vector>& other = points[approach.bodies.second];
       if (n == 0) approach.start(one, other, c.cell_size);
       if (approach.known) approach.look(one, other, c.end_time * n / looks);
     }

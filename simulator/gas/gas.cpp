@@ -146,6 +146,21 @@ double largest_step(const Gas& gas, double courant) {
 
 namespace {
 
+/// The step with bodies or without; false if a cell does not bear it. If so, or if it throws, the counts are as before.
+bool attempt_step(Gas& gas, double dt, Domain& domain) {
+  const std::int64_t flattened = gas.flattened, capped = gas.capped;
+  const auto not_done = [&] { gas.flattened = flattened, gas.capped = capped; };
+  try {
+    const bool borne = gas.bodies.empty() ? try_step(gas, dt, domain) : try_step_with_bodies(gas, dt, domain);
+    if (borne) ask_beyond(gas, gas.time + dt);  // the next step begins there
+    if (!borne) not_done();
+    return borne;
+  } catch (const StepFailure&) {
+    not_done();
+    throw;
+  }
+}
+
 Outcome advance_fluids(Gas& gas, double dt, Domain& domain) {
   clear_step(gas.passages);
   if (gas.classic) {
@@ -158,11 +173,9 @@ Outcome advance_fluids(Gas& gas, double dt, Domain& domain) {
   }
   const bool with_bodies = !gas.bodies.empty();
   if (with_bodies && !timed(gas, Phase::bodies, [&] { return move_bodies(gas, dt, domain); })) return Outcome::rejected;
-  const std::int64_t flattened = gas.flattened, capped = gas.capped;
   gas.careful = false;
   const int most_attempts = gas.implicit ? 1 : 3;  // the faces of the solve know no slopes to do without
-  for (int attempt = 1; !(with_bodies ? try_step_with_bodies(gas, dt, domain) : try_step(gas, dt, domain)); ++attempt) {
-    gas.flattened = flattened, gas.capped = capped;
+  for (int attempt = 1; !attempt_step(gas, dt, domain); ++attempt) {
     clear_step(gas.passages);
     make_marked_cells_plain(gas);
     if (attempt == most_attempts) {

@@ -243,7 +243,7 @@ void begin(Gas& gas, Domain& domain);
 double largest_step(const Gas& gas, double courant);
 enum class Outcome { done, rejected };
 /// Advances by dt (s). What a cell would not bear is tried again with first order there; a step that is rejected changes
-/// nothing.
+/// nothing. Throws StepFailure, nothing having changed.
 Outcome advance(Gas& gas, double dt, Domain& domain);
 Totals totals(const Gas& gas, Domain& domain);
 /// What has come through each side of the box since the start, then by gravity, then by each body, and what bodies have

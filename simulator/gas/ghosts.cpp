@@ -99,6 +99,14 @@ double part_of_velocity(double part, double density, double mixed_density) {
   return part == 1.0 ? 1.0 : part * density / mixed_density;
 }
 
+void ask_beyond(const Gas& gas, double time) {
+  for (std::size_t s = 0; s < gas.cells.sides.size(); ++s) {
+    const Edge& edge = gas.edges[s];
+    if (is_wall(edge.kind) || edge.kind == EdgeKind::periodic) continue;
+    for (const Ghost& g : gas.cells.sides[s].nearest) edge.beyond(gas.cells.centre(index(g.block), g.cell), time);
+  }
+}
+
 void share_primitives(Gas& gas, double time, Domain& domain) {
   CellSet& set = gas.primitive;
   share(gas.cells, set, domain);

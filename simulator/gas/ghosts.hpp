@@ -14,6 +14,8 @@ double share_of_beyond(EdgeKind kind, double outward_mach);
 /// (kg/m^3): momentum is mixed, so thin gas at rest beyond does not hold up what flows into it.
 double part_of_velocity(double part, double density, double mixed_density);
 
+/// Asks what lies beyond the box at a time (s); throws StepFailure where a formula fails then.
+void ask_beyond(const Gas& gas, double time);
 /// After the equilibrium: primitives of halo and ghosts at a time (s).
 void share_primitives(Gas& gas, double time, Domain& domain);
 /// What the first half of a step of dt (s) changes there.

@@ -12,6 +12,7 @@
 #include "models/input/diagnostics.hpp"
 #include "models/input/units.hpp"
 #include "simulator/solid/shapes.hpp"
+#include "simulator/step_failure.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -113,18 +114,17 @@ FillingFunction state_beyond(const GasConfig& config, const std::vector<Fluid>& 
     try {
       return state_at(edge, number, fluid ? &*fluid : nullptr, position, time, dimensions);
     } catch (const FormulaError& error) {
-      throw std::runtime_error(
+      throw StepFailure(
           fmt::format("gas.edge {}: {}: {}", choices<BoxSide>[static_cast<std::size_t>(edge.side)], error.key, error.what()));
     }
   };
 }
 
 StateProfile read_state_profile(const ProfileConfig& config) {
-  const CsvFile csv = CsvFile::load(config.file);
+  CsvColumns csv(config.file);
   StateProfile profile;
   const std::string_view along = choices<ProfileAlong>[static_cast<std::size_t>(config.along)];
   profile.place = csv.numbers(along, Unit::m);
-  const auto fail = [&](const std::string& what) { throw InputError({{csv.path().string(), 0, 0, "", what}}); };
   struct Column {
     std::string_view name;
     std::vector<double>& values;
@@ -138,17 +138,18 @@ StateProfile read_state_profile(const ProfileConfig& config) {
   bool any = false;
   for (const Column& column : columns) {
     known.push_back(column.name);
-    if (csv.has(column.name)) column.values = csv.numbers(column.name, column.unit), any = true;
+    if (csv.file().has(column.name)) column.values = csv.numbers(column.name, column.unit), any = true;
   }
-  for (const std::string& name : csv.column_names())
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      fail(fmt::format("the column \"{}\" says nothing of a gas; there may be {}", name, listed(known)));
-  if (!any) fail("it holds no state; one column at least of " + listed(std::span(known).subspan(1)) + " is required");
-  if (profile.place.empty()) fail("it has no rows; one is required");
+  for (const std::string& name : csv.file().column_names())
+    if (csv.file().has(along) && std::find(known.begin(), known.end(), name) == known.end())
+      csv.problem(fmt::format("the column \"{}\" says nothing of a gas; there may be {}", name, listed(known)));
+  if (!any) csv.problem("it holds no state; one column at least of " + listed(std::span(known).subspan(1)) + " is required");
+  if (csv.file().rows() == 0) csv.problem("it has no rows; one is required");
   if (!std::is_sorted(profile.place.begin(), profile.place.end()))
-    fail(fmt::format("{} must rise from row to row; two rows of one place make a jump", along));
+    csv.problem(fmt::format("{} must rise from row to row; two rows of one place make a jump", along));
   if (std::any_of(profile.density.begin(), profile.density.end(), [](double rho) { return !(rho > 0.0); }))
-    fail("a density is not above 0");
+    csv.problem("a density is not above 0");
+  csv.finish();
   return profile;
 }
 

@@ -80,7 +80,7 @@ struct FormulaError : std::runtime_error {
 /// FormulaError.
 Filling state_at(const GasStateConfig& state, int number, const Fluid* fluid, const Vector& position, double time,
                  int dimensions);
-/// What lies beyond an open side. What it gives throws std::runtime_error where a formula fails, with the name of the side.
+/// What lies beyond an open side. What it gives throws StepFailure where a formula fails, with the name of the side.
 FillingFunction state_beyond(const GasConfig& config, const std::vector<Fluid>& fluids, const EdgeConfig& edge, int dimensions);
 
 }  // namespace brisance::simulator::gas

@@ -80,6 +80,7 @@ struct Carried {
   Lanes kinetic;    // J
   Lanes heat_kept;  // part of the heat
   LanesMask flattened;
+  Lanes steepness;  // (m/s)^2, of the velocity from cell to cell
 };
 /// Momentum that goes with a mass (positive along the axis) into dp.
 template <int D>
@@ -95,12 +96,21 @@ Carried carry_momentum(const Giving& giving, const std::array<Donor<D>, reach>& 
   }
   const Leaving leaving = leaving_with_momentum(giving.up, part, of(low.density, high.density), steepness,
                                                 of(low.energy, high.energy), giving.order);
-  Carried carried{Lanes(0.0), leaving.heat_kept, leaving.too_steep};
+  Carried carried{Lanes(0.0), leaving.heat_kept, leaving.too_steep, steepness};
   for (int a = 0; a < D; ++a) {
     const Lanes u = of(low.velocity[a], high.velocity[a]) + leaving.offset * slopes[a];
     dp[a][face] = mass * u, carried.kinetic += 0.5 * mass * u * u;
   }
   return carried;
+}
+
+/// How many of the cells that give through a face have lost slopes that could be noticed.
+template <int D>
+std::int64_t count_flattened(const Gas& gas, std::size_t block, int axis, int n, std::size_t face, const Giving& giving,
+                             const Carried& carried) {
+  Pencil sound;
+  load<D>(gas.cells, gas.primitive, block, Primitive::sound_speed, axis, n, sound);
+  return count_inside<D>(gas, block, axis, n, face, carried.flattened & noticeable(carried.steepness, giving.of(sound)));
 }
 
 struct SweepResult {
@@ -144,7 +154,7 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
       const Lanes leaving = swept[f] * giving.leaving(density, calm, Lanes(1.0));
       dm[f] = leaving;
       const Carried carried = carry_momentum<D>(giving, donors, leaving, f, dp);
-      if (any(carried.flattened)) result.flattened += count_inside<D>(gas, block, axis, n, f, carried.flattened);
+      if (any(carried.flattened)) result.flattened += count_flattened<D>(gas, block, axis, n, f, giving, carried);
       dE[f] = swept[f] * giving.leaving(energy, calm, calm) * carried.heat_kept + carried.kinetic;
     }
     for (std::size_t f = 0; f < line; ++f) {
@@ -243,7 +253,7 @@ SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
         dm_all += at.dm[f], dI_all += at.dI[f];
       }
       const Carried carried = carry_momentum<D>(giving, donors, dm_all, f, dp);
-      if (any(carried.flattened)) result.flattened += count_inside<D>(gas, block, axis, n, f, carried.flattened);
+      if (any(carried.flattened)) result.flattened += count_flattened<D>(gas, block, axis, n, f, giving, carried);
       dE[f] = dI_all * carried.heat_kept + carried.kinetic;
     }
     for (std::size_t f = 0; f < line; ++f) {

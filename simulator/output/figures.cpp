@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -78,6 +79,29 @@ std::optional<std::array<double, 2>> extent(const std::vector<const std::vector<
     for (const double v : *values) low = std::min(low, v), high = std::max(high, v);
   if (!(low < high)) return std::nullopt;
   return {{scale.per_si * low, scale.per_si * high}};
+}
+
+/// What a picture shows of the values of a run that failed, if a few of them would leave no room for the others.
+struct MostOf {
+  std::array<double, 2> range;
+  std::string words;  // what lies beyond the range
+};
+/// All but the outermost hundredth at either end; nothing if the rest does not reach ten times as far as these do.
+std::optional<MostOf> most_of(const std::vector<double>& all, std::string_view unit) {
+  constexpr double outermost = 0.01, far = 10.0;
+  std::vector<double> values;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(values), [](double v) { return std::isfinite(v); });
+  std::sort(values.begin(), values.end());
+  const auto left_out = static_cast<std::size_t>(std::ceil(outermost * static_cast<double>(values.size())));
+  if (values.size() <= 2 * left_out) return std::nullopt;
+  const double low = values[left_out], high = values[values.size() - 1 - left_out], reach = largest({low, high});
+  const bool finite = values.size() == all.size();
+  if (finite && (reach == 0.0 || largest({values.front(), values.back()}) <= far * reach)) return std::nullopt;
+  const auto beyond = std::count_if(values.begin(), values.end(), [&](double v) { return v < low || v > high; });
+  std::string words = fmt::format("run failed: {} of {} values beyond; all from {} to {}", beyond, all.size(),
+                                  in_words(values.front(), unit, 3), in_words(values.back(), unit, 3));
+  if (!finite) words += fmt::format("; {} no numbers", all.size() - values.size());
+  return MostOf{{low, high}, words};
 }
 
 void legend_beside(Panel& panel) {
@@ -446,18 +470,23 @@ Curve planes_of(const Simulation& s, Tiles& tiles) {
   return lines;
 }
 
-void draw_field(const Case& c, const Simulation& s, const Path& directory) {
+void draw_field(const Case& c, const Simulation& s, const Path& directory, Of of) {
   const double h = s.grid.cell_size;
   Tiles tiles = s.gas.empty() ? tiles_of_solids(c, s) : tiles_of_gas(s, c.output.figure_field);
   Curve& points = tiles.points;
+  const std::optional<MostOf> most = of == Of::failed_run ? most_of(points.values, tiles.unit) : std::nullopt;
   if (tiles.mirrored) mirror(tiles);
   Curve planes = planes_of(s, tiles);
   Figure figure;
   figure.title = fmt::format("{}: {} at {}", c.title, in_words(tiles.field), in_words(s.time, "s"));
   Panel panel;
   panel.x_label = coordinate_label(s.geometry, "x"), panel.y_label = coordinate_label(s.geometry, "y");
-  const Scale values = scale_for(tiles.unit, largest(points.values));
+  const Scale values = scale_for(tiles.unit, most ? largest({most->range[0], most->range[1]}) : largest(points.values));
   panel.scale_label = label(in_words(tiles.field), values);
+  if (most) {
+    panel.title = most->words;
+    panel.colour_range = {{values.per_si * most->range[0], values.per_si * most->range[1]}};
+  }
   figure.panels.push_back(panel);
   const Scale lengths = fit(figure, tiles.window, 0.5 * h);
   // Tiles reach a pixel beyond their edges, so that no light shines through between them.
@@ -473,7 +502,7 @@ void draw_field(const Case& c, const Simulation& s, const Path& directory) {
 }
 
 /// The fields of a figure along its line, one below the other.
-void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, const Path& directory) {
+void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, const Path& directory, Of of) {
   const LineOut computed = line_out(s, config);
   if (computed.place.empty()) throw std::runtime_error(fmt::format("figure {}: nothing is near its line", config.name));
   LineOut reference = config.reference.empty() ? LineOut{} : read_reference(config);
@@ -482,7 +511,9 @@ void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, c
   Figure figure{fmt::format("{}: {} at {}", c.title, config.name, in_words(s.time, "s")), {}, 1, 900, 280};
   for (std::size_t f = 0; f < config.fields.size(); ++f) {
     const std::string& field = config.fields[f];
-    const Scale scale = scale_for(unit_of_field(field), largest(computed.values[f]));
+    const std::string unit = unit_of_field(field);
+    const std::optional<MostOf> most = of == Of::failed_run ? most_of(computed.values[f], unit) : std::nullopt;
+    const Scale scale = scale_for(unit, most ? largest({most->range[0], most->range[1]}) : largest(computed.values[f]));
     const auto curve = [&](const std::string& title, const LineOut& from, Mark mark, int colour) {
       return Curve{title, scaled(from.place, lengths.per_si), scaled(from.values[f], scale.per_si), mark, colour};
     };
@@ -491,6 +522,7 @@ void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, c
     panel.y_label = label(in_words(field) + (field == "velocity" ? " along " + computed.coordinate : ""), scale);
     legend_beside(panel);
     panel.x_range = extent({&computed.place, &reference.place}, lengths);
+    if (most) panel.title = most->words, panel.y_range = {{scale.per_si * most->range[0], scale.per_si * most->range[1]}};
     panel.curves.push_back(curve("computed", computed, Mark::dots, 5));
     panel.curves.back().size = 0.7;
     if (f < reference.values.size() && !reference.values[f].empty())
@@ -556,7 +588,7 @@ void draw_profile(const Case& c, const Simulation& s, const MeasureConfig& measu
 
 }  // namespace
 
-std::vector<std::string> draw_figures(const Case& c, const Simulation& s, const Path& directory) {
+std::vector<std::string> draw_figures(const Case& c, const Simulation& s, const Path& directory, Of of) {
   std::vector<std::string> troubles;
   const auto attempt = [&](const std::function<void()>& draw_it) {
     try {
@@ -569,7 +601,7 @@ std::vector<std::string> draw_figures(const Case& c, const Simulation& s, const 
   if (!s.gas.bodies.empty()) attempt([&] { draw_gas_bodies(c, s, directory); });
   if (!s.gas.burns.empty()) attempt([&] { draw_reactions(c, s, directory); });
   if (!c.gauges.empty()) attempt([&] { draw_gauges(c, directory); });
-  if (s.dimensions() > 1) attempt([&] { draw_field(c, s, directory); });
+  if (s.dimensions() > 1) attempt([&] { draw_field(c, s, directory, of); });
   std::vector<std::size_t> drawn;
   for (const MeasureConfig& measure : c.measures) {
     const std::size_t body = body_of(measure, s);
@@ -577,7 +609,7 @@ std::vector<std::string> draw_figures(const Case& c, const Simulation& s, const 
     drawn.push_back(body);
     attempt([&] { draw_profile(c, s, measure, directory); });
   }
-  for (const FigureConfig& figure : c.figures) attempt([&] { draw_line(c, s, figure, directory); });
+  for (const FigureConfig& figure : c.figures) attempt([&] { draw_line(c, s, figure, directory, of); });
   return troubles;
 }
 

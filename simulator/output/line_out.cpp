@@ -108,20 +108,19 @@ std::string unit_of_field(const std::string& name) {
 }
 
 LineOut read_reference(const FigureConfig& figure) {
-  const CsvFile csv = CsvFile::load(figure.reference);
+  CsvColumns csv(figure.reference);
   LineOut result{Line(figure).coordinate(), {}, {}};
   result.place = csv.numbers(result.coordinate, Unit::m);
   bool any = false;
   for (const std::string& name : figure.fields) {
-    const bool given = csv.has(name);
+    const bool given = csv.file().has(name);
     const std::string unit = unit_of_field(name);
     result.values.push_back(given ? csv.numbers(name, Unit{unit}) : std::vector<double>{});
     any = any || given;
   }
   if (!any)
-    throw InputError(
-        {{csv.path().string(), 0, 0, "",
-          fmt::format("none of its columns is drawn; at least one of {} is required", fmt::join(figure.fields, ", "))}});
+    csv.problem(fmt::format("none of its columns is drawn; at least one of {} is required", fmt::join(figure.fields, ", ")));
+  csv.finish();
   return result;
 }
 

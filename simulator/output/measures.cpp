@@ -121,8 +121,10 @@ Profile profile_of(const Simulation& s, const Body& body, Axis along) {
 }
 
 MeasuredProfile read_profile(const std::filesystem::path& path) {
-  const CsvFile csv = CsvFile::load(path);
-  return {csv.numbers("height", Unit::m), csv.numbers("radius", Unit::m)};
+  CsvColumns csv(path);
+  MeasuredProfile profile{csv.numbers("height", Unit::m), csv.numbers("radius", Unit::m)};
+  csv.finish();
+  return profile;
 }
 
 std::size_t body_of(const MeasureConfig& measure, const Simulation& s) {

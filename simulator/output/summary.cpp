@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "models/programs/files.hpp"
@@ -140,10 +142,16 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
     all.set("first_order_cell_steps", s.books.gas->plain).set("flattened_slopes", s.books.gas->flattened);
     Json outside = Json::object();
     for (const gas::RangeReport& report : s.books.gas->outside) outside.set(report.fluid, json_of(report));
-    all.set("outside_declared_densities", outside);
+    all.set("outside_declared_densities", outside).set("not_gated", s.not_gated);
   }
   all.set("wall_time", s.wall_time).set(points + "_steps_per_second", s.particle_steps_per_second).set("threads", s.threads);
   replace_file_by_text(path, all.set("versions", versions).text());
+}
+
+bool tells_of_failure(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return text.find("\"ending\": \"failed\"") != std::string::npos;
 }
 
 std::string in_words(const Summary& s) {
@@ -162,7 +170,10 @@ std::string in_words(const Summary& s) {
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", m.name, shown(m.value), m.measured ? shown(*m.measured) : "",
                         m.measured ? difference(m) : "");
   }
-  if (s.books.gas) return text + gas_in_words(s.books, static_cast<double>(s.steps) * static_cast<double>(s.particles));
+  if (s.books.gas) {
+    text += gas_in_words(s.books, static_cast<double>(s.steps) * static_cast<double>(s.particles));
+    return text + (s.not_gated.empty() ? "" : fmt::format("  not gated: {}\n", s.not_gated));
+  }
   const Balance& b = s.books.balance;
   const double peak = s.books.peak_kinetic > 0.0 ? s.books.peak_kinetic : 1.0;
   text += fmt::format("  {:24} {:>14} {:>14}\n", "energy", unit(Extensive::energy, s.books), "of the peak");

@@ -21,8 +21,11 @@ struct Summary {
   Books books;
   std::vector<MeasuredValue> measures;
   std::vector<GaugePeak> peaks{};  // of the gauges
+  std::string not_gated{};         // what no gate watches
 };
 
+/// Whether a summary that was written tells of a run that failed; not if there is none.
+bool tells_of_failure(const std::filesystem::path& path);
 void write_summary(const Summary& summary, const std::filesystem::path& path);
 /// A table of the measures and the energies; without the message.
 std::string in_words(const Summary& summary);

@@ -15,6 +15,7 @@
 #include "models/input/csv.hpp"
 #include "models/input/diagnostics.hpp"
 #include "simulator/keys.hpp"
+#include "tests/simulator/small_bar.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -31,6 +32,7 @@ const fs::path& folder() {
     std::ofstream(made / "swirl.csv") << "radius [mm],pressure [bar],velocity_around [m/s]\n0,1,0\n2,2,10\n2,3,0\n";
     std::ofstream(made / "tension.csv") << "radius [mm],pressure [bar]\n0,1\n4,-200\n";
     std::ofstream(made / "falling.csv") << "radius [mm],density [kg/m^3]\n2,1\n0,1\n";
+    std::ofstream(made / "worse.csv") << "radius [mm],density [kg/m^3],pressure [m],colour\n2,1,1,1\n0,-1,1,1\n";
     std::ofstream(made / "empty.csv") << "radius [mm],density [kg/m^3]\n0,0\n";
     return made;
   }();
@@ -311,20 +313,7 @@ time = "1 us"
 )";
 
 /// Every key of a body in the gas.
-const std::string bodies_in_gas = R"(
-geometry = "plane"
-cell_size = "1 mm"
-end_time = "1 us"
-[gas]
-lower = [0, 0]
-upper = ["20 mm", "10 mm"]
-[[gas.fluid]]
-name = "air"
-material = "air.toml"
-[[gas.fill]]
-temperature = "300 K"
-pressure = "1 atm"
-[[gas.body]]
+const std::string bodies_in_gas = box_of_air("1 mm", "1 us", "[0, 0]", "[0.02, 0.01]") + R"([[gas.body]]
 name = "ring"
 shape = { sphere = { centre = ["5 mm", "5 mm"], radius = "4 mm", inner_radius = "2 mm" } }
 particles_per_direction = 3
@@ -726,6 +715,232 @@ kind = "weight"
                           "solid.0.shape.ball: ", "solid.0.temperature: missing", "measure.0.kind: \"weight\" is unknown"})
     EXPECT_NE(what.find(key), std::string::npos) << key << "\n" << what;
   EXPECT_EQ(std::count(what.begin(), what.end(), '\n'), 5) << what;  // these six and no follow-ups
+}
+
+/// Many mistakes, of which none hides another: each is reported in the first round, and no follow-ups.
+const std::string wrong_gas = R"(geometry = "plane"
+cell_size = "1 mm"
+end_time = "1 us"
+[gas]
+lower = [0, 0]
+upper = ["20.5 mm", "10 mm"]
+courant = 5
+[[gas.fluid]]
+name = "air"
+material = "air.toml"
+viscosity = "1 m"
+[[gas.fluid]]
+name = "air"
+material = "nothing.toml"
+[[gas.fill]]
+fluid = "aire"
+pressure = "1 atm"
+temperature = "300 K"
+[[gas.fill]]
+fluid = "air"
+shape = { sphere = { centre = [0, 0] } }
+density = -1
+[[gas.edge]]
+side = "high_x"
+kind = "periodic"
+[[gas.edge]]
+side = "up"
+kind = "inflow"
+fluid = "air"
+[[gas.body]]
+name = "a b"
+shape = { sphere = { centre = ["5 mm", "5 mm"], radius = "3 mm" } }
+rotation = [1, 0, 0]
+particles_per_direction = 20
+[[gas.body]]
+name = "c"
+shape = { sphere = { centre = ["7 mm", "5 mm"], radius = "3 mm" } }
+mass = "1 m"
+[[gauge]]
+name = "g"
+kind = "point"
+from = ["50 mm", 0]
+fields = ["presure"]
+colour = "red"
+[[figure]]
+name = "f"
+kind = "lines"
+fields = ["pressure"]
+from = [0, 0]
+to = [0, "5 mm"]
+reference = "nowhere.csv"
+)";
+const std::string wrong_solids = R"(geometry = "axisymmetric"
+cell_size = "1 mm"
+end_time = "80 us"
+[[solid]]
+name = "bar"
+material = "nothing.toml"
+temperature = "295 K"
+velocity = [3, "-190 m/s"]
+shape = { cylinder = { start = [0, 0], end = [0, "25 mm"], radius = "4 mm" } }
+[[solid]]
+name = "bar"
+material = "copper_ofhc_mts.toml"
+shape = { cylinder = { start = [0, "20 mm"], end = [0, "30 mm"], radius = "4 mm" } }
+porosity = { law = "constant", value = 0.01 }
+[[boundary]]
+kind = "symmetry"
+axis = "w"
+position = 0
+side = "above"
+friction = 0.2
+[[boundary]]
+kind = "rigid_wall"
+axis = "y"
+position = "5.5 mm"
+side = "up"
+[[load]]
+body = "bat"
+region = { sphere = { centre = [0, 0] } }
+[[gauge]]
+name = "g"
+kind = "pint"
+from = [0, 0]
+fields = ["presure"]
+[[gauge]]
+name = "g"
+kind = "point"
+from = [0, "-500 mm"]
+to = [0, "1 mm"]
+fields = 3
+[[measure]]
+kind = "diameter_at"
+body = "bat"
+measured = "4 s"
+[[measure]]
+kind = "profile_error"
+profile = "nowhere.csv"
+axis = "q"
+[[figure]]
+name = "a/b"
+kind = "line"
+fields = ["position"]
+from = [0, 0]
+to = [0, 0]
+[output]
+figure_field = 3
+history_interval = -1
+[gates]
+residual = 0
+)";
+
+struct FirstRound {
+  std::string text;
+  std::vector<std::string> problems;  // each on a line of its own
+};
+TEST(CaseReader, ReportsWhatCanBeJudgedWhateverElseIsWrong) {
+  const auto with_geometry = [](std::string text, const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  const std::vector<std::string> of_gas = {"gas.upper: along x 0.0205 m is on no plane of nodes",
+                                           "gas.courant: 5 is out of range",
+                                           "gas.fluid.0.viscosity: \"1 m\" is not a viscosity",
+                                           "gas.fluid.1.name: the name \"air\" is given twice",
+                                           "gas.fluid.1.material: there is no material file",
+                                           "gas.fill.0.fluid: there is no fluid \"aire\"",
+                                           "gas.fill.1.pressure: missing",
+                                           "gas.fill.1.shape.sphere.radius: missing",
+                                           "gas.fill.1.density: -1 kg/m^3 is out of range",
+                                           "gas.edge.1.pressure: missing",
+                                           "gas.edge.1: neither density nor temperature",
+                                           "gas.edge.1.side: \"up\" is unknown",
+                                           "gas.body: a b and c overlap",
+                                           "gas.body.0.name: \"a b\": it becomes part of file names",
+                                           "gas.body.0.rotation: in the plane a body can only turn about z",
+                                           "gas.body.0.particles_per_direction: 20",
+                                           "gas.body.1.mass: \"1 m\" is not a mass",
+                                           "gauge.0.from: along x it leaves the box",
+                                           "gauge.0.fields: \"presure\"",
+                                           "gauge.0.colour: unknown key",
+                                           "figure.0.kind: \"lines\" is unknown",
+                                           "figure.0.reference: its file cannot be used",
+                                           "nowhere.csv: there is no such file"};
+  const std::vector<std::string> of_solids = {"solid.0.material: there is no material file",
+                                              "solid.0.velocity: in the axisymmetric geometry no body moves",
+                                              "solid.1.temperature: missing",
+                                              "solid.1.name: the name \"bar\" is given twice",
+                                              "solid.1.shape: it fills about 20 %",
+                                              "solid.1.porosity: it would be ignored",
+                                              "boundary.0.axis: \"w\" is unknown",
+                                              "boundary.0.friction: it would be ignored",
+                                              "boundary.1.position: 0.0055 m is on no plane of nodes",
+                                              "boundary.1.side: \"up\" is unknown",
+                                              "load.0: nothing acts",
+                                              "load.0.body: there is no solid \"bat\"",
+                                              "load.0.region.sphere.radius: missing",
+                                              "gauge.0.kind: \"pint\" is unknown",
+                                              "gauge.0.fields: \"presure\" cannot be recorded",
+                                              "gauge.1.name: the name \"g\" is given twice",
+                                              "gauge.1.from: it is more than a cell away",
+                                              "gauge.1.to: it would be ignored",
+                                              "gauge.1.fields: this is the number 3",
+                                              "measure.0.at: missing",
+                                              "measure.0.body: there is no solid \"bat\"",
+                                              "measure.0.measured: \"4 s\" is not a length",
+                                              "measure.1: which body the measure is of is unknown",
+                                              "measure.1.profile: its file cannot be used",
+                                              "measure.1.axis: \"q\" is unknown",
+                                              "figure.0.name: \"a/b\"",
+                                              "figure.0.fields: \"position\" cannot be drawn",
+                                              "figure.0.to: it is where `from` is",
+                                              "output.figure_field: this is the number 3",
+                                              "output.history_interval: -1 s",
+                                              "gates.residual: 0 is out of range",
+                                              "nowhere.csv: there is no such file"};
+  const auto without = [](std::vector<std::string> all, const std::vector<std::string>& keys) {
+    for (const std::string& key : keys)
+      std::erase_if(all, [&](const std::string& problem) { return problem.starts_with(key); });
+    all.push_back("geometry: \"flat\" is unknown");
+    return all;
+  };
+  const std::string head = "geometry = \"plane\"\ncell_size = 1\nend_time = 1\n";
+  for (const auto& [text, problems] : {
+           FirstRound{wrong_gas, of_gas},
+           FirstRound{wrong_solids, of_solids},
+           // Without a geometry nothing is known of places and directions.
+           FirstRound{with_geometry(wrong_gas, "\"plane\"", "\"flat\""),
+                      without(of_gas, {"gas.upper", "gas.body: ", "gas.body.0.rotation", "gauge.0.from"})},
+           FirstRound{
+               with_geometry(wrong_solids, "\"axisymmetric\"", "\"flat\""),
+               without(of_solids, {"solid.0.velocity", "solid.1.shape", "boundary.1.position", "gauge.1.from", "gauge.1.to"})},
+           FirstRound{head + "[gas]\nlower = [0, 0]\nupper = [10, 10]\n",
+                      {"gas.fluid: missing: a gas or liquid; begin one by [[gas.fluid]]", "gas.fill: missing"}},
+           FirstRound{head + "gas = 3\nsolid = 2\n[[gauge]]\nname = \"a\"\nkind = \"point\"\nfrom = [50, 0]\nfields = "
+                             "[\"pressure\"]\n",
+                      {"gas: this is the number 3", "solid: this is the number 2"}},
+       }) {
+    const std::string what = problems_of(text);
+    for (const std::string& problem : problems) EXPECT_NE(what.find(problem), std::string::npos) << problem << "\n" << what;
+    EXPECT_EQ(std::count(what.begin(), what.end(), '\n') + 1, static_cast<std::ptrdiff_t>(problems.size())) << what;
+  }
+}
+
+TEST(CaseReader, ReportsAllThatIsWrongWithAFileOfNumbers) {
+  const auto count = [](const std::string& what, const std::string& file) {
+    std::ptrdiff_t lines = 0;
+    for (std::size_t at = 0; (at = what.find(file, at)) != std::string::npos; ++at) ++lines;
+    return lines;
+  };
+  std::string of_gas = gases;
+  of_gas.replace(of_gas.find("swirl.csv"), 9, "worse.csv");
+  const std::string profile = problems_of(of_gas);
+  for (const char* problem : {"column pressure: ", "the column \"colour\" says nothing", "radius must rise from row to row",
+                              "a density is not above 0"})
+    EXPECT_NE(profile.find(problem), std::string::npos) << problem << "\n" << profile;
+  EXPECT_EQ(count(profile, "worse.csv:"), 4) << profile;
+  const std::string measured = problems_of(bar + "[[measure]]\nkind = \"profile_error\"\nprofile = \"reference.csv\"\n");
+  EXPECT_EQ(count(measured, "reference.csv:1:1: there is no column"), 2) << measured;
+  const std::string figure = problems_of(bar +
+                                         "[[figure]]\nname = \"a\"\nkind = \"line\"\nfields = [\"pressure\", \"density\"]\n"
+                                         "from = [0, 0]\nto = [\"1 mm\", 0]\nreference = \"worse.csv\"\n");
+  EXPECT_EQ(count(figure, "worse.csv:"), 2) << "no column x, no pressure in m\n" << figure;
 }
 
 TEST(CaseReader, ACaseHasABody) {

@@ -146,20 +146,8 @@ TEST(ResumeCommand, RefusesALaterTimeThatTheCaseCouldNotHave) {
 /// What is foreseen of the longer time is said before it begins, and that of a run stands in its log as well.
 TEST(ResumeCommand, WarnsOfWhatALaterTimeBrings) {
   const fs::path directory = scratch();
-  const std::string file = write_text(directory / "tube.toml", R"(
-geometry = "plane"
-cell_size = "10 mm"
-end_time = "20 us"
-[gas]
-lower = [0, 0]
-upper = ["0.2 m", "50 mm"]
-[[gas.fluid]]
-name = "air"
-material = "air.toml"
-[[gas.fill]]
-temperature = "300 K"
-pressure = "1 atm"
-[[gas.body]]
+  const std::string file = write_text(directory / "tube.toml",
+                                      box_of_air("10 mm", "20 us", "[0, 0]", "[0.2, 0.05]") + R"([[gas.body]]
 name = "piston"
 shape = { box = { lower = [-0.1, -0.1], upper = [0.1, 0.1] } }
 velocity = [300, 0]

@@ -1,5 +1,5 @@
 #pragma once
-// A small copper bar against a rigid wall, as a case file in a directory of the test's own.
+// A small copper bar against a rigid wall and a box of air, as case files in a directory of the test's own.
 
 #include <sys/resource.h>
 
@@ -52,6 +52,15 @@ inline std::string small_bar(const std::string& more = "") {
          "temperature = \"298 K\"\nvelocity = [0, \"-190 m/s\"]\nmaterial = \"copper_ofhc_johnson_cook.toml\"\n"
          "[[boundary]]\nkind = \"rigid_wall\"\naxis = \"y\"\nposition = 0\nside = \"above\"\n" +
          more;
+}
+
+/// A plane box of air at 300 K and 1 atm, to which bodies are added; all as in a case file, corners as lists.
+inline std::string box_of_air(const std::string& cell_size, const std::string& end_time, const std::string& lower,
+                              const std::string& upper) {
+  return "geometry = \"plane\"\ncell_size = \"" + cell_size + "\"\nend_time = \"" + end_time + "\"\n[gas]\nlower = " + lower +
+         "\nupper = " + upper +
+         "\n[[gas.fluid]]\nname = \"air\"\nmaterial = \"air.toml\"\n"
+         "[[gas.fill]]\ntemperature = \"300 K\"\npressure = \"1 atm\"\n";
 }
 
 /// Every bit of the particles' state, in the order of their ids: where they stand in memory has no meaning.

@@ -10,7 +10,7 @@
 namespace brisance::simulator {
 
 /// Draws with a program in the place of gnuplot that keeps what it is told, and returns that.
-inline std::string told_to_gnuplot(const Case& c, const Simulation& s, const fs::path& directory) {
+inline std::string told_to_gnuplot(const Case& c, const Simulation& s, const fs::path& directory, Of of = Of::good_run) {
   fs::create_directories(directory / "bin");
   const fs::path told = directory / "told.txt", program = directory / "bin" / "gnuplot";
   write_text(program, "#!/bin/sh\ntee -a '" + told.string() +
@@ -18,7 +18,7 @@ inline std::string told_to_gnuplot(const Case& c, const Simulation& s, const fs:
   fs::permissions(program, fs::perms::owner_all);
   const std::string before = std::getenv("PATH");
   setenv("PATH", ((directory / "bin").string() + ":" + before).c_str(), 1);
-  static_cast<void>(draw_figures(c, s, directory));
+  static_cast<void>(draw_figures(c, s, directory, of));
   setenv("PATH", before.c_str(), 1);
   return text_of(told);
 }

@@ -84,6 +84,28 @@ TEST(SlopesAroundBodies, AreCountedWhereTheyAreTakenBack) {
   EXPECT_EQ(three.flattened, one.flattened);
 }
 
+/// A solid whose energy counts from its state at rest has none that could pay for a slope: the least shear loses its own.
+TEST(SlopesWithoutHeat, AreCountedWhereTheirLossCouldBeNoticed) {
+  const auto flattened = [](double shear_rate, bool with_body) {
+    const auto domain = single_process();
+    const equation_of_state::Murnaghan solid{1838.0, 1.0 / 2.78e-11, 7.4, 1e5, 1000.0, 300.0};
+    Gas gas = set_up::box(Geometry::plane, h, {0, 0, 0}, {40, 20, 0}, {{"explosive", solid}}, *domain);
+    const auto sheared = [&](const Vector& x, double) {
+      return Filling{0, 1838.0, 1e5, {10.0, shear_rate * (x[0] - 0.2), 0.0}};
+    };
+    gas.edges[0] = gas.edges[1] = set_up::beyond(EdgeKind::non_reflecting, sheared);
+    gas.edges[2] = gas.edges[3] = set_up::around();
+    if (with_body) gas.bodies.all = {set_up::ball(Geometry::plane, h, {0.2, 0.1, 0.0}, 0.04)};
+    fill(gas, sheared, *domain);
+    Stepper().steps(gas, 3, *domain);
+    return gas.flattened;
+  };
+  for (const bool with_body : {false, true}) {
+    EXPECT_EQ(flattened(1.0, with_body), 0) << "1 cm/s from cell to cell, of 4400 m/s";
+    EXPECT_GT(flattened(2000.0, with_body), 0) << "20 m/s";
+  }
+}
+
 /// What the gas says when it cannot go on; empty if it can until the end.
 std::string end_of(Gas& gas, double end, Domain& domain) {
   for (int n = 0; gas.time < end; ++n) {

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "simulator/case_reader.hpp"
-#include "tests/command_line.hpp"
+#include "tests/simulator/small_bar.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -18,20 +18,7 @@ constexpr double h = 5e-3, speed = 300.0;
 
 /// A tube of 1 m by 50 mm with a piston between two places that moves at 300 m/s for 0.8 ms: by 0.24 m.
 Case tube(const std::string& lower, const std::string& upper, const std::string& velocity, const std::string& more = "") {
-  return read_case(write_text(scratch() / "tube.toml", R"(
-geometry = "plane"
-cell_size = "5 mm"
-end_time = "0.8 ms"
-[gas]
-lower = [0, 0]
-upper = ["1 m", "50 mm"]
-[[gas.fluid]]
-name = "air"
-material = "air.toml"
-[[gas.fill]]
-temperature = "300 K"
-pressure = "1 atm"
-[[gas.body]]
+  return read_case(write_text(scratch() / "tube.toml", box_of_air("5 mm", "0.8 ms", "[0, 0]", "[1, 0.05]") + R"([[gas.body]]
 name = "piston"
 shape = { box = { lower = )" + lower + ", upper = " + upper +
                                                            " } }\nvelocity = " + velocity + '\n' + more));
@@ -104,6 +91,39 @@ TEST(TwoBodiesInATube, MeetWhereTheirWaysCross) {
       << "it runs away: 20 mm are left";
 }
 
+const std::string ring_of_tube =
+    "[[gas.edge]]\nside = \"low_x\"\nkind = \"periodic\"\n[[gas.edge]]\nside = \"high_x\"\nkind = \"periodic\"\n";
+
+/// The tube is 1 m long: from the end of the piston at 0.9 m there are 100 mm to the side, and so many beyond it as the block
+/// begins at.
+TEST(TwoBodiesInATube, MeetRoundItsPeriod) {
+  const auto met = [&](const std::string& from, const std::string& to) {
+    return foreseen_meetings(tube("[0.8, 0]", "[0.9, 0.05]", "[300, 0]",
+                                  ring_of_tube + body("{ box = { lower = [" + from + ", 0], upper = [" + to + ", 0.025] } }")));
+  };
+  const auto beyond = met("0.05", "0.15");
+  ASSERT_EQ(beyond.size(), 1u);
+  EXPECT_EQ(beyond[0].kind, Kind::runs_into_body);
+  constexpr double two_looks = 2 * 0.8e-3 / 400;  // s
+  EXPECT_NEAR(beyond[0].time, 0.15 / speed, two_looks);
+  const auto at_the_side = met("0", "0.1");
+  ASSERT_EQ(at_the_side.size(), 1u);
+  EXPECT_NEAR(at_the_side[0].time, 0.1 / speed, two_looks) << "only images beyond the side are near it";
+  EXPECT_TRUE(met("0.2", "0.3").empty()) << "60 mm are left";
+  const auto touching = foreseen_meetings(
+      tube("[0.9, 0]", "[1, 0.05]", "[-300, 0]", ring_of_tube + body("{ box = { lower = [0, 0], upper = [0.1, 0.025] } }")));
+  ASSERT_EQ(touching.size(), 1u);
+  EXPECT_EQ(touching[0].kind, Kind::slides_along_body) << "flush round the period";
+}
+
+/// It leaves the box on one side before it comes to the wall above, which it does within it again.
+TEST(ABodyThatGoesRoundThePeriod, MeetsTheWallItThenRunsInto) {
+  const auto met = foreseen_meetings(tube("[0.9, 0.01]", "[0.95, 0.02]", "[300, 50]", ring_of_tube));
+  ASSERT_EQ(met.size(), 1u);
+  EXPECT_EQ(met[0].body + " " + met[0].side, "piston high_y");
+  EXPECT_NEAR(met[0].time, (0.03 - 0.5 * h) / 50.0, 1e-9);
+}
+
 TEST(TwoBodiesInATube, ThatPassEachOtherDoNotMeet) {
   const auto passing = [&](const std::string& lower, const std::string& upper, const std::string& more = "") {
     return foreseen_meetings(
@@ -122,26 +142,15 @@ TEST(TwoBodiesInATube, ThatPassEachOtherDoNotMeet) {
 /// A bar that turns about its middle: 60 mm from there it comes by.
 TEST(ABarThatTurns, MeetsWhatItsEndsReach) {
   const auto turning = [&](const std::string& radius) {
-    return foreseen_meetings(read_case(write_text(scratch() / "bar.toml", R"(
-geometry = "plane"
-cell_size = "5 mm"
-end_time = "1 ms"
-[gas]
-lower = [-0.2, -0.2]
-upper = [0.2, 0.2]
-[[gas.fluid]]
-name = "air"
-material = "air.toml"
-[[gas.fill]]
-temperature = "300 K"
-pressure = "1 atm"
-[[gas.body]]
+    return foreseen_meetings(
+        read_case(write_text(scratch() / "bar.toml", box_of_air("5 mm", "1 ms", "[-0.2, -0.2]", "[0.2, 0.2]") + R"([[gas.body]]
 name = "bar"
 shape = { box = { lower = [-0.06, -0.01], upper = [0.06, 0.01] } }
 rotation = [0, 0, 2000]
 [[gas.body]]
 name = "ball"
-shape = { sphere = { centre = [0, 0.1], radius = )" + radius + " } }\n")));
+shape = { sphere = { centre = [0, 0.1], radius = )" + radius +
+                                                         " } }\n")));
   };
   const auto met = turning("0.06");
   ASSERT_EQ(met.size(), 1u);

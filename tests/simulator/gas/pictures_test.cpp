@@ -113,6 +113,53 @@ TEST(PicturesOfGas, ShowTheReferenceOverWhatWasComputedAndTheBodyOverTheCells) {
   EXPECT_TRUE(contains(field, "filledcurves closed") && contains(field, "with lines")) << field;
 }
 
+/// What gnuplot is told of a range for the first time: "1:2".
+std::string range_after(const std::string& told, const std::string& command) {
+  const std::size_t begin = told.find(command + " [");
+  if (begin == std::string::npos) return "none";
+  const std::size_t first = begin + command.size() + 2;
+  return told.substr(first, told.find(']', first) - first);
+}
+
+/// Of 40 x 20 cells with pressures from 1 to 1.8 Pa one goes wrong: it takes neither all of the colours nor all of the height
+/// of a line through it.
+TEST(PicturesOfAFailedRun, ShowWhatMostCellsHoldAndSayThatAFewDoNot) {
+  constexpr double h = 0.01;
+  Case c;
+  c.title = "slope", c.geometry = Geometry::plane, c.cell_size = h, c.output.figure_field = "pressure";
+  c.figures.push_back({"through", FigureKind::line, "", {"pressure"}, {0.0, 0.105, 0.0}, {0.4, 0.105, 0.0}, {}});
+  Simulation s;
+  s.geometry = Geometry::plane, s.grid.cell_size = h;
+  s.gas = gas::set_up::box(Geometry::plane, h, {0, 0, 0}, {40, 20, 0}, {gas::set_up::ideal_gas()}, *s.domain);
+  fill(
+      s.gas,
+      [](const Vector& x, double) {
+        return gas::Filling{0, 1.0, 1.0 + 2.0 * x[0], {}};
+      },
+      *s.domain);
+  const fs::path directory = scratch();
+  const auto told = [&](const std::string& name, Of of) {
+    fs::create_directories(directory / name);
+    return told_to_gnuplot(c, s, directory / name, of);
+  };
+  const std::string alike = told("alike", Of::failed_run);
+  EXPECT_FALSE(contains(alike, "run failed")) << "no value reaches far beyond the others";
+  EXPECT_EQ(range_after(alike, "set cbrange"), range_after(told("good", Of::good_run), "set cbrange"));
+  gas::set_up::for_each_cell(s.gas, [&](const gas::set_up::Cell& at) {
+    if (at.index == std::array{20, 10, 0}) s.gas.primitive.cell(at.block, gas::Primitive::pressure, at.number) = 1e30;
+  });
+  const std::string failed = told("failed", Of::failed_run);
+  const std::string colours = range_after(failed, "set cbrange");
+  const double low = std::stod(colours), high = std::stod(colours.substr(colours.find(':') + 1));
+  EXPECT_GT(low, 1.0);
+  EXPECT_LT(low, 1.0 + 4.0 * h);
+  EXPECT_GT(high, 1.8 - 4.0 * h);
+  EXPECT_LT(high, 1.8);
+  EXPECT_TRUE(contains(failed, "run failed: 1 of 800 values beyond; all from 1.01 Pa to 1e+21 GPa")) << failed.substr(0, 3000);
+  const std::size_t line = failed.find("set yrange [1.0");
+  EXPECT_NE(line, std::string::npos) << "of the line through the cell";
+}
+
 TEST(PicturesAboutAnAxis, NameTheCoordinatesAsTheCaseFileDoes) {
   const fs::path directory = scratch();
   const Case c = read_case(fs::path(BRISANCE_SOURCE_DIR) / "data/cases/sphere_with_the_gas.toml", {"end_time=1e-3"});
