@@ -341,6 +341,7 @@ std::uint8_t cells_inside(const Cells& cells, std::size_t block, int pack) {
 }
 
 LanesMask lanes_of(std::uint8_t bits) {
+  if (bits == 0xff) return LanesMask(true);
   Lanes flag;
   for (int l = 0; l < 8; ++l) flag.set(l, bits >> l & 1);
   return flag > 0.0;

@@ -295,7 +295,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
       }
     }
     const LanesMask bears = ((moved > least_room * room) & (thermal > 0.0)) | !active;
-    at(gas.marks, 0) = select(bears, at(gas.marks, 0), Lanes(1.0));
+    if (!all(bears)) at(gas.marks, 0) = select(bears, at(gas.marks, 0), Lanes(1.0));
     good &= bears;
   }
   return all(good);
