@@ -6,6 +6,7 @@
 // All kernels see the gas as pencils: eight parallel lines of eight cells along one axis, with two more cells at either end.
 // One pack of lanes holds one cell of each line, so the same code runs along every axis and in every number of dimensions.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -25,10 +26,24 @@ inline constexpr int ring = 2;  // cells beyond each end
 inline constexpr int reach = line + 2 * ring;
 inline constexpr int line_faces = line + 1;
 
+/// An array whose elements are nothing until something is put there: to make lanes zero first takes time.
+template <class T, std::size_t count>
+class Unset {
+ public:
+  Unset() {}
+  T& operator[](std::size_t i) { return elements_[i]; }
+  const T& operator[](std::size_t i) const { return elements_[i]; }
+  void fill(const T& value) { std::fill_n(elements_, count, value); }
+
+ private:
+  union {
+    T elements_[count];
+  };
+};
 /// A quantity in the cells of a pencil; cells ring ... ring + line - 1 are the block's.
-using Pencil = std::array<Lanes, reach>;
+using Pencil = Unset<Lanes, reach>;
 /// A quantity at the faces of a pencil's own cells; face f is the low one of cell ring + f.
-using FacePencil = std::array<Lanes, line_faces>;
+using FacePencil = Unset<Lanes, line_faces>;
 
 template <int D>
 struct BlockShape {
@@ -134,6 +149,13 @@ void load_own(const CellSet& set, std::size_t block, int quantity, int axis, int
 /// Writes the block's own cells of a pencil.
 template <int D>
 void store(CellSet& set, std::size_t block, int quantity, int axis, int n, const Pencil& pencil);
+
+/// The packs of a block that pencil number n is made of: its cells one after the other; along x its lines.
+struct PencilPacks {
+  int first, step;
+  PencilPacks(int axis, int n) : first(axis == 2 ? n : 8 * n), step(axis == 2 ? 8 : 1) {}
+  int operator[](int m) const { return first + step * m; }
+};
 
 /// Volumes of the cells and areas of the faces of a pencil.
 struct PencilMetric {

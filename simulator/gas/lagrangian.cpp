@@ -79,7 +79,7 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>&
                     FacePencil& face_pressure) {
   const double half_head = 0.5 * gas.gravity[static_cast<std::size_t>(axis)] * gas.cells.cell_size;
   const Pencil& velocity = s.velocity[axis];
-  std::array<FaceSide, reach> to_low, to_high;
+  Unset<FaceSide, reach> to_low, to_high;
   Pencil speed;
   for (std::size_t c = ring - 1; c <= ring + line; ++c) {
     const LanesMask first_order = gas.careful ? s.plain[c] > 0.0 : LanesMask(false);
