@@ -29,8 +29,15 @@ void half_step_of(Gas& gas, std::size_t block, double dt) {
       load<D>(cells, gas.primitive, block, Primitive::density, axis, n, density);
       load<D>(cells, gas.primitive, block, Primitive::pressure, axis, n, pressure);
       load<D>(cells, gas.primitive, block, Primitive::velocity + axis, axis, n, velocity);
-      for (std::size_t c = ring; c < ring + line; ++c)
+      const NextPencil<D> next(gas.cells, block, axis, n);
+      for (std::size_t c = ring; c < ring + line; ++c) {
+        next.fetch(gas.primitive, Primitive::density, 1, c - ring);
+        next.fetch(gas.primitive, Primitive::pressure, 1, c - ring);
+        next.fetch(gas.primitive, Primitive::velocity + axis, 1, c - ring);
+        next.fetch_to_write(gas.half_step, HalfStep::pressure, 1, c - ring);
+        next.fetch_to_write(gas.half_step, HalfStep::velocity + axis, 1, c - ring);
         change[c] = (-0.5 * dt / h) * pressure_slope(pressure, density, c, half_head) / density[c];
+      }
       store<D>(gas.half_step, block, HalfStep::velocity + axis, axis, n, change);
       for (std::size_t c = ring; c < ring + line; ++c) change[c] = slope(velocity, c);
       // The sum over the axes, in the order of the axes; through the pressure's place.
@@ -103,7 +110,13 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>&
     const Lanes shock = 1.0 + 0.5 * max(s.gruneisen[l], s.gruneisen[r]);
     return star(L, R, s.sound[l], s.sound[r], shock, sqrt(max(speed[l], speed[r])), least_mach);
   };
+  const NextPencil<D> next(gas.cells, block, axis, n);
   for (std::size_t f = 0; f < line_faces; ++f) {
+    if (f < line) {
+      next.fetch(gas.primitive, 0, Primitive::count(D), f);
+      next.fetch(gas.half_step, HalfStep::pressure, 1, f);
+      next.fetch(gas.half_step, HalfStep::velocity + axis, 1, f);
+    }
     const Star found = face(f, gas.least_mach);
     face_velocity[f] = found.velocity, face_pressure[f] = found.pressure;
   }

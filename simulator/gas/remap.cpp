@@ -133,8 +133,13 @@ template <int D>
     }
     donors.find_slopes();
     const Lanes* swept = gas.swept_faces(block, axis, n);
+    const NextPencil<D> next(gas.cells, block, axis, n);
     FacePencil dm, dE, dp[D];
     for (std::size_t f = 0; f < line_faces; ++f) {
+      if (f < line) {
+        next.fetch(gas.moved, 0, gas.contents(), f);
+        next.fetch_to_write(gas.next, 0, gas.contents(), f);
+      }
       const Giving giving = giving_at(swept[f], room, gas.careful ? &plain : nullptr, f);
       // A shock steepens itself. Held together like a contact, and with fourth order, it rings.
       const std::size_t l = giving.low, h = giving.high;
@@ -209,8 +214,13 @@ template <int D>
     }
     donors.find_slopes();
     const Lanes* swept = gas.swept_faces(block, axis, n);
+    const NextPencil<D> next(gas.cells, block, axis, n);
     FacePencil dE, dp[D];
     for (std::size_t f = 0; f < line_faces; ++f) {
+      if (f < line) {
+        next.fetch(gas.moved, 0, gas.contents(), f);
+        next.fetch_to_write(gas.next, 0, gas.contents(), f);
+      }
       const Giving giving = giving_at(swept[f], room, gas.careful ? &plain : nullptr, f);
       const Lanes q = abs(swept[f]);
       // Volumes first: together they are what the face has swept. What the limits leave over goes to the largest. Of a fluid of
