@@ -104,6 +104,14 @@ Lanes strided(const double* from) {
   return result;
 }
 
+/// Lane i of pack j becomes lane j of pack i, of eight packs.
+void transpose(const Lanes* from, Lanes* to) {
+  const double* const __restrict__ rows = reinterpret_cast<const double*>(from);
+  double* const __restrict__ columns = reinterpret_cast<double*>(to);
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) columns[8 * i + j] = rows[8 * j + i];
+}
+
 }  // namespace
 
 std::array<int, 3> Cells::corner(std::size_t block) const {
@@ -263,55 +271,42 @@ void load(const Cells& cells, const CellSet& set, std::size_t block, int quantit
   const Lanes* low = set.at(static_cast<std::size_t>(cells.neighbours[block][side]), quantity);
   const Lanes* own = set.at(block, quantity);
   const Lanes* high = set.at(static_cast<std::size_t>(cells.neighbours[block][side + 1]), quantity);
-  if constexpr (D == 1) {
-    alignas(64) double cell[64 + 2 * 8];  // the ends of the neighbours, and the block between them
-    low[7].store(cell), high[0].store(cell + 72);
-    for (int p = 0; p < 8; ++p) own[p].store(cell + 8 + 8 * p);
-    for (int m = 0; m < reach; ++m) pencil[static_cast<std::size_t>(m)] = strided(cell + 8 - ring + m);
-    return;
-  }
+  const PencilPacks packs(axis, n);
   if (axis == 0) {
-    const auto columns = [n](const Lanes* packs, int m) { return strided(reinterpret_cast<const double*>(packs + 8 * n) + m); };
-    for (int m = 0; m < ring; ++m) {
-      pencil[static_cast<std::size_t>(m)] = columns(low, line - ring + m);
-      pencil[static_cast<std::size_t>(ring + line + m)] = columns(high, m);
+    transpose(own + packs.first, &pencil[ring]);
+    for (std::size_t m = 0; m < ring; ++m) {
+      Lanes &low_end = pencil[m], &high_end = pencil[ring + line + m];
+      if constexpr (D == 1) {  // the lines follow each other
+        for (int l = 1; l < 8; ++l) low_end.set(l, pencil[line + m][l - 1]), high_end.set(l - 1, pencil[ring + m][l]);
+        low_end.set(0, low[7][line - ring + static_cast<int>(m)]), high_end.set(7, high[0][static_cast<int>(m)]);
+      } else {
+        low_end = strided(reinterpret_cast<const double*>(low + packs.first) + (line - ring) + m);
+        high_end = strided(reinterpret_cast<const double*>(high + packs.first) + m);
+      }
     }
-    for (int m = 0; m < line; ++m) pencil[static_cast<std::size_t>(ring + m)] = columns(own, m);
     return;
   }
-  const int first = axis == 1 ? 8 * n : n, step = axis == 1 ? 1 : 8;
   for (int m = 0; m < ring; ++m) {
-    pencil[static_cast<std::size_t>(m)] = low[first + step * (line - ring + m)];
-    pencil[static_cast<std::size_t>(ring + line + m)] = high[first + step * m];
+    pencil[static_cast<std::size_t>(m)] = low[packs[line - ring + m]];
+    pencil[static_cast<std::size_t>(ring + line + m)] = high[packs[m]];
   }
-  for (int m = 0; m < line; ++m) pencil[static_cast<std::size_t>(ring + m)] = own[first + step * m];
+  for (int m = 0; m < line; ++m) pencil[static_cast<std::size_t>(ring + m)] = own[packs[m]];
 }
 
 template <int D>
 void load_own(const CellSet& set, std::size_t block, int quantity, int axis, int n, Pencil& pencil) {
   const Lanes* own = set.at(block, quantity);
-  if (axis == 0) {
-    const double* cell = reinterpret_cast<const double*>(own + (D == 3 ? 8 * n : 0));
-    for (int m = 0; m < line; ++m) pencil[static_cast<std::size_t>(ring + m)] = strided(cell + m);
-    return;
-  }
-  const int first = axis == 1 ? 8 * n : n, step = axis == 1 ? 1 : 8;
-  for (int m = 0; m < line; ++m) pencil[static_cast<std::size_t>(ring + m)] = own[first + step * m];
+  const PencilPacks packs(axis, n);
+  if (axis == 0) return transpose(own + packs.first, &pencil[ring]);
+  for (int m = 0; m < line; ++m) pencil[static_cast<std::size_t>(ring + m)] = own[packs[m]];
 }
 
 template <int D>
 void store(CellSet& set, std::size_t block, int quantity, int axis, int n, const Pencil& pencil) {
   Lanes* own = set.at(block, quantity);
-  if (axis == 0) {
-    double* cell = reinterpret_cast<double*>(own + (D == 3 ? 8 * n : 0));
-    alignas(64) double eight[line][8];
-    for (int m = 0; m < line; ++m) pencil[static_cast<std::size_t>(ring + m)].store(eight[m]);
-    for (int l = 0; l < 8; ++l)
-      for (int m = 0; m < line; ++m) cell[8 * l + m] = eight[m][l];
-    return;
-  }
-  const int first = axis == 1 ? 8 * n : n, step = axis == 1 ? 1 : 8;
-  for (int m = 0; m < line; ++m) own[first + step * m] = pencil[static_cast<std::size_t>(ring + m)];
+  const PencilPacks packs(axis, n);
+  if (axis == 0) return transpose(&pencil[ring], own + packs.first);
+  for (int m = 0; m < line; ++m) own[packs[m]] = pencil[static_cast<std::size_t>(ring + m)];
 }
 
 template <int D>
@@ -341,6 +336,7 @@ std::uint8_t cells_inside(const Cells& cells, std::size_t block, int pack) {
 }
 
 LanesMask lanes_of(std::uint8_t bits) {
+  if (bits == 0xff) return LanesMask(true);
   Lanes flag;
   for (int l = 0; l < 8; ++l) flag.set(l, bits >> l & 1);
   return flag > 0.0;

@@ -6,6 +6,7 @@
 // All kernels see the gas as pencils: eight parallel lines of eight cells along one axis, with two more cells at either end.
 // One pack of lanes holds one cell of each line, so the same code runs along every axis and in every number of dimensions.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -25,10 +26,24 @@ inline constexpr int ring = 2;  // cells beyond each end
 inline constexpr int reach = line + 2 * ring;
 inline constexpr int line_faces = line + 1;
 
+/// An array whose elements are nothing until something is put there: to make lanes zero first takes time.
+template <class T, std::size_t count>
+class Unset {
+ public:
+  Unset() {}
+  T& operator[](std::size_t i) { return elements_[i]; }
+  const T& operator[](std::size_t i) const { return elements_[i]; }
+  void fill(const T& value) { std::fill_n(elements_, count, value); }
+
+ private:
+  union {
+    T elements_[count];
+  };
+};
 /// A quantity in the cells of a pencil; cells ring ... ring + line - 1 are the block's.
-using Pencil = std::array<Lanes, reach>;
+using Pencil = Unset<Lanes, reach>;
 /// A quantity at the faces of a pencil's own cells; face f is the low one of cell ring + f.
-using FacePencil = std::array<Lanes, line_faces>;
+using FacePencil = Unset<Lanes, line_faces>;
 
 template <int D>
 struct BlockShape {
@@ -60,6 +75,12 @@ class CellSet {
   double& cell(std::size_t block, int quantity, int c) { return reinterpret_cast<double*>(at(block, quantity))[c]; }
   double cell(std::size_t block, int quantity, int c) const { return const_cast<CellSet*>(this)->cell(block, quantity, c); }
   std::size_t bytes() const { return data_.capacity() * sizeof(Lanes); }
+  /// Asks the memory for a pack of quantities first ... first + count - 1, to be read (0) or written (1). Inlined, or GCC takes
+  /// what does nothing else for a function without effect, and leaves it out.
+  template <int write>
+  [[gnu::always_inline]] void fetch(std::size_t block, int pack, int first, int count) const {
+    for (int q = first; q < first + count; ++q) __builtin_prefetch(at(block, q) + pack, write);
+  }
 
  private:
   std::size_t block_packs() const { return static_cast<std::size_t>(quantities_ * packs_); }
@@ -134,6 +155,46 @@ void load_own(const CellSet& set, std::size_t block, int quantity, int axis, int
 /// Writes the block's own cells of a pencil.
 template <int D>
 void store(CellSet& set, std::size_t block, int quantity, int axis, int n, const Pencil& pencil);
+
+/// The packs of a block that pencil number n is made of: its cells one after the other; along x its lines.
+struct PencilPacks {
+  int first, step;
+  PencilPacks(int axis, int n) : first(axis == 2 ? n : 8 * n), step(axis == 2 ? 8 : 1) {}
+  int operator[](int m) const { return first + step * m; }
+};
+
+/// Asks the memory for the pencil after one (the next of the block, or the first of the block after it) while that one is
+/// computed with: each call for another part of it, 0 ... line - 1. Asked for all at once, they would wait for each other.
+template <int D>
+class NextPencil {
+ public:
+  NextPencil(const Cells& cells, std::size_t block, int axis, int n)
+      : block_(n + 1 < BlockShape<D>::pencils ? block : std::min(block + 1, cells.blocks.size() - 1)),
+        packs_(axis, (n + 1) % BlockShape<D>::pencils),
+        deep_(axis == 0 ? line : ring) {
+    const auto beside = [&](int side) {
+      const std::int32_t b = cells.neighbours[block_][static_cast<std::size_t>(2 * axis + side)];
+      return b < 0 ? block_ : static_cast<std::size_t>(b);
+    };
+    low_ = beside(0), high_ = beside(1);
+  }
+  /// What `load` reads of quantities first ... first + count - 1.
+  [[gnu::always_inline]] void fetch(const CellSet& set, int first, int count, std::size_t part) const {
+    const int m = static_cast<int>(part);
+    set.fetch<0>(block_, packs_[m], first, count);
+    if (m < deep_) set.fetch<0>(high_, packs_[m], first, count);
+    if (m >= line - deep_) set.fetch<0>(low_, packs_[m], first, count);
+  }
+  /// What `store` writes.
+  [[gnu::always_inline]] void fetch_to_write(const CellSet& set, int first, int count, std::size_t part) const {
+    set.fetch<1>(block_, packs_[static_cast<int>(part)], first, count);
+  }
+
+ private:
+  std::size_t block_, low_, high_;
+  PencilPacks packs_;
+  int deep_;  // packs of a neighbour that `load` reads
+};
 
 /// Volumes of the cells and areas of the faces of a pencil.
 struct PencilMetric {

@@ -351,9 +351,10 @@ bool all_cells_hold_heat(Gas& gas, const CellSet& content) {
       }
       for (int a = 0; a < D; ++a) square += at(Content::momentum + a) * at(Content::momentum + a);
       const LanesMask holds = (at(Content::energy) - 0.5 * square / mass > cold) | !lanes_of(cells_inside(gas.cells, block, k));
+      all_good &= holds;
+      if (all(holds)) continue;
       Lanes& mark = gas.marks.at(block, 0)[k];
       mark = select(holds, mark, Lanes(1.0));
-      all_good &= holds;
     }
     good[i] = all(all_good);
   });

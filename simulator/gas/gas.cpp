@@ -69,7 +69,7 @@ bool try_step(Gas& gas, double dt, Domain& domain) {
   Vector moved{dt, dt, dt};
   for (int n = 0; n < D; ++n) {
     const int axis = gas.step % 2 == 0 ? n : D - 1 - n;
-    timed(gas, Phase::ghosts, [&] { share_moved(gas, gas.time + dt, moved, domain); });
+    timed(gas, Phase::ghosts, [&] { share_moved(gas, axis, gas.time + dt, moved, domain); });
     if (!all_bear(timed(gas, Phase::remap, [&] { return sweep(gas, axis); }))) return false;
     std::swap(gas.moved, gas.next);
     moved[static_cast<std::size_t>(axis)] = 0.0;

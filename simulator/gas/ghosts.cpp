@@ -33,12 +33,12 @@ void continue_column(Gas& gas, const GhostSide& side) {
   }
 }
 
-/// f(edge, side) for every side of the box; walls and periods are served here.
+/// f(edge, side) for both sides of the box across an axis; walls and periods are served here.
 template <class F>
-void fill_ghosts(const Gas& gas, CellSet& set, int first_component, F&& otherwise) {
-  for (std::size_t s = 0; s < gas.cells.sides.size(); ++s) {
-    const GhostSide& side = gas.cells.sides[s];
-    const Edge& edge = gas.edges[s];
+void fill_ghosts(const Gas& gas, CellSet& set, int axis, int first_component, F&& otherwise) {
+  for (const int s : {2 * axis, 2 * axis + 1}) {
+    const GhostSide& side = gas.cells.sides[static_cast<std::size_t>(s)];
+    const Edge& edge = gas.edges[static_cast<std::size_t>(s)];
     if (is_wall(edge.kind))
       copy(set, side.mirrored, first_component + side.axis);
     else if (edge.kind == EdgeKind::periodic)
@@ -46,6 +46,11 @@ void fill_ghosts(const Gas& gas, CellSet& set, int first_component, F&& otherwis
     else
       otherwise(edge, side);
   }
+}
+
+template <class F>
+void fill_ghosts(const Gas& gas, CellSet& set, int first_component, F&& otherwise) {
+  for (int axis = 0; axis < gas.dimensions(); ++axis) fill_ghosts(gas, set, axis, first_component, otherwise);
 }
 
 /// Part of what lies beyond an open side that a cell feels which the gas leaves through it: see share_of_beyond.
@@ -158,10 +163,10 @@ void share_half_step(Gas& gas, double dt, Domain& domain) {
   });
 }
 
-void share_moved(Gas& gas, double time, const Vector& moved, Domain& domain) {
+void share_moved(Gas& gas, int axis, double time, const Vector& moved, Domain& domain) {
   CellSet& set = gas.moved;
   share(gas.cells, set, domain);
-  fill_ghosts(gas, set, Content::momentum, [&](const Edge& edge, const GhostSide& side) {
+  fill_ghosts(gas, set, axis, Content::momentum, [&](const Edge& edge, const GhostSide& side) {
     if (edge.kind == EdgeKind::pressure) return copy(set, side.nearest, -1);
     for (const Ghost& g : side.nearest) {
       write_content(gas, set, index(g.block), g.cell, moved_beyond(gas, edge, g, time, moved));

@@ -20,9 +20,9 @@ void ask_beyond(const Gas& gas, double time);
 void share_primitives(Gas& gas, double time, Domain& domain);
 /// What the first half of a step of dt (s) changes there.
 void share_half_step(Gas& gas, double dt, Domain& domain);
-/// Contents of halo and ghosts between the sweeps of the remap, at the end of the step; `moved` (s) tells for each axis how
-/// long the cells have moved along it.
-void share_moved(Gas& gas, double time, const Vector& moved, Domain& domain);
+/// Contents of the halo, and of the ghosts that a sweep of the remap along an axis reads, at the end of the step; `moved` (s)
+/// tells for each axis how long the cells have moved along it.
+void share_moved(Gas& gas, int axis, double time, const Vector& moved, Domain& domain);
 
 /// Halo and ghosts of quantities without a direction, such as a fluid's part of the volume; beyond an edge they are as next to
 /// it, or nothing beyond any side.

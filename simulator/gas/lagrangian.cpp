@@ -29,8 +29,15 @@ void half_step_of(Gas& gas, std::size_t block, double dt) {
       load<D>(cells, gas.primitive, block, Primitive::density, axis, n, density);
       load<D>(cells, gas.primitive, block, Primitive::pressure, axis, n, pressure);
       load<D>(cells, gas.primitive, block, Primitive::velocity + axis, axis, n, velocity);
-      for (std::size_t c = ring; c < ring + line; ++c)
+      const NextPencil<D> next(gas.cells, block, axis, n);
+      for (std::size_t c = ring; c < ring + line; ++c) {
+        next.fetch(gas.primitive, Primitive::density, 1, c - ring);
+        next.fetch(gas.primitive, Primitive::pressure, 1, c - ring);
+        next.fetch(gas.primitive, Primitive::velocity + axis, 1, c - ring);
+        next.fetch_to_write(gas.half_step, HalfStep::pressure, 1, c - ring);
+        next.fetch_to_write(gas.half_step, HalfStep::velocity + axis, 1, c - ring);
         change[c] = (-0.5 * dt / h) * pressure_slope(pressure, density, c, half_head) / density[c];
+      }
       store<D>(gas.half_step, block, HalfStep::velocity + axis, axis, n, change);
       for (std::size_t c = ring; c < ring + line; ++c) change[c] = slope(velocity, c);
       // The sum over the axes, in the order of the axes; through the pressure's place.
@@ -79,7 +86,7 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>&
                     FacePencil& face_pressure) {
   const double half_head = 0.5 * gas.gravity[static_cast<std::size_t>(axis)] * gas.cells.cell_size;
   const Pencil& velocity = s.velocity[axis];
-  std::array<FaceSide, reach> to_low, to_high;
+  Unset<FaceSide, reach> to_low, to_high;
   Pencil speed;
   for (std::size_t c = ring - 1; c <= ring + line; ++c) {
     const LanesMask first_order = gas.careful ? s.plain[c] > 0.0 : LanesMask(false);
@@ -103,7 +110,13 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>&
     const Lanes shock = 1.0 + 0.5 * max(s.gruneisen[l], s.gruneisen[r]);
     return star(L, R, s.sound[l], s.sound[r], shock, sqrt(max(speed[l], speed[r])), least_mach);
   };
+  const NextPencil<D> next(gas.cells, block, axis, n);
   for (std::size_t f = 0; f < line_faces; ++f) {
+    if (f < line) {
+      next.fetch(gas.primitive, 0, Primitive::count(D), f);
+      next.fetch(gas.half_step, HalfStep::pressure, 1, f);
+      next.fetch(gas.half_step, HalfStep::velocity + axis, 1, f);
+    }
     const Star found = face(f, gas.least_mach);
     face_velocity[f] = found.velocity, face_pressure[f] = found.pressure;
   }
@@ -295,7 +308,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
       }
     }
     const LanesMask bears = ((moved > least_room * room) & (thermal > 0.0)) | !active;
-    at(gas.marks, 0) = select(bears, at(gas.marks, 0), Lanes(1.0));
+    if (!all(bears)) at(gas.marks, 0) = select(bears, at(gas.marks, 0), Lanes(1.0));
     good &= bears;
   }
   return all(good);

@@ -14,9 +14,14 @@ namespace {
 
 /// What leaves a cell through a face depends on its own slopes alone, so both neighbours of the face compute the same.
 template <int D>
-struct Donor {
-  Lanes mass, density, energy;  // kg; kg/m^3; J/m^3, internal
-  Lanes velocity[D], velocity_slope[D];
+struct Donors {
+  Pencil mass, density, energy;  // kg; kg/m^3; J/m^3, internal
+  Pencil velocity[D], velocity_slope[D];
+
+  void find_slopes() {
+    for (int a = 0; a < D; ++a)
+      for (std::size_t c = ring - 1; c <= ring + line; ++c) velocity_slope[a][c] = slope(velocity[a], c);
+  }
 };
 
 /// The flow through one face: which of its two cells gives, and what part of it.
@@ -84,21 +89,19 @@ struct Carried {
 };
 /// Momentum that goes with a mass (positive along the axis) into dp.
 template <int D>
-Carried carry_momentum(const Giving& giving, const std::array<Donor<D>, reach>& donors, const Lanes& mass, std::size_t face,
-                       std::array<Lanes, line_faces> (&dp)[D]) {
-  const Donor<D>&low = donors[giving.low], &high = donors[giving.high];
-  const auto of = [&](const Lanes& of_low, const Lanes& of_high) { return select(giving.up, of_low, of_high); };
-  const Lanes part = abs(mass) / of(low.mass, high.mass);
+Carried carry_momentum(const Giving& giving, const Donors<D>& donors, const Lanes& mass, std::size_t face,
+                       FacePencil (&dp)[D]) {
+  const Lanes part = abs(mass) / giving.of(donors.mass);
   Lanes steepness(0.0), slopes[D];
   for (int a = 0; a < D; ++a) {
-    slopes[a] = of(low.velocity_slope[a], high.velocity_slope[a]);
+    slopes[a] = giving.of(donors.velocity_slope[a]);
     steepness += slopes[a] * slopes[a];
   }
-  const Leaving leaving = leaving_with_momentum(giving.up, part, of(low.density, high.density), steepness,
-                                                of(low.energy, high.energy), giving.order);
+  const Leaving leaving =
+      leaving_with_momentum(giving.up, part, giving.of(donors.density), steepness, giving.of(donors.energy), giving.order);
   Carried carried{Lanes(0.0), leaving.heat_kept, leaving.too_steep, steepness};
   for (int a = 0; a < D; ++a) {
-    const Lanes u = of(low.velocity[a], high.velocity[a]) + leaving.offset * slopes[a];
+    const Lanes u = giving.of(donors.velocity[a]) + leaving.offset * slopes[a];
     dp[a][face] = mass * u, carried.kinetic += 0.5 * mass * u * u;
   }
   return carried;
@@ -119,11 +122,13 @@ struct SweepResult {
 };
 
 template <int D>
-SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
+[[gnu::flatten]] SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
   constexpr int mass_at = Content::fluids(D) + Content::mass;
   SweepResult result;
   for (int n = 0; n < BlockShape<D>::pencils; ++n) {
-    Pencil room, total, mass, momentum[D], density, energy, velocity[D], plain;
+    Donors<D> donors;
+    auto& [mass, density, energy, velocity, velocity_slope] = donors;
+    Pencil room, total, momentum[D], plain;
     if (gas.careful) load<D>(gas.cells, gas.half_step, block, HalfStep::plain(D), axis, n, plain);
     load<D>(gas.cells, gas.moved, block, Content::room, axis, n, room);
     load<D>(gas.cells, gas.moved, block, Content::energy, axis, n, total);
@@ -136,15 +141,15 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
       for (int a = 0; a < D; ++a) velocity[a][c] = momentum[a][c] * inverse_mass, kinetic += momentum[a][c] * velocity[a][c];
       energy[c] = (total[c] - 0.5 * kinetic) / room[c];
     }
-    std::array<Donor<D>, reach> donors;
-    for (std::size_t c = ring - 1; c <= ring + line; ++c) {
-      Donor<D>& d = donors[c];
-      d.mass = mass[c], d.density = density[c], d.energy = energy[c];
-      for (int a = 0; a < D; ++a) d.velocity[a] = velocity[a][c], d.velocity_slope[a] = slope(velocity[a], c);
-    }
+    donors.find_slopes();
     const Lanes* swept = gas.swept_faces(block, axis, n);
-    std::array<Lanes, line_faces> dm, dE, dp[D] = {};
+    const NextPencil<D> next(gas.cells, block, axis, n);
+    FacePencil dm, dE, dp[D];
     for (std::size_t f = 0; f < line_faces; ++f) {
+      if (f < line) {
+        next.fetch(gas.moved, 0, gas.contents(), f);
+        next.fetch_to_write(gas.next, 0, gas.contents(), f);
+      }
       const Giving giving = giving_at(swept[f], room, gas.careful ? &plain : nullptr, f);
       // A shock steepens itself. Held together like a contact, and with fourth order, it rings.
       const std::size_t l = giving.low, h = giving.high;
@@ -181,17 +186,19 @@ SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
 }
 
 template <int D>
-SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
+[[gnu::flatten]] SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
   const std::size_t fluids = gas.fluids.size();
   SweepResult result;
   struct FluidPencils {
     Pencil mass, volume, internal, part, density, energy;
     std::array<LanesMask, reach> present;
-    std::array<Lanes, line_faces> dm, dV, dI;
+    FacePencil dm, dV, dI;
   };
   std::vector<FluidPencils> fluid(fluids);
   for (int n = 0; n < BlockShape<D>::pencils; ++n) {
-    Pencil room, total, momentum[D], mass, energy, velocity[D], plain;
+    Donors<D> donors;
+    auto& [mass, density, energy, velocity, velocity_slope] = donors;
+    Pencil room, total, momentum[D], plain;
     if (gas.careful) load<D>(gas.cells, gas.half_step, block, HalfStep::plain(D), axis, n, plain);
     load<D>(gas.cells, gas.moved, block, Content::room, axis, n, room);
     load<D>(gas.cells, gas.moved, block, Content::energy, axis, n, total);
@@ -212,18 +219,18 @@ SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
       }
     }
     for (std::size_t c = 0; c < reach; ++c) {
-      energy[c] /= room[c];
+      density[c] = mass[c] / room[c], energy[c] /= room[c];
       for (int a = 0; a < D; ++a) velocity[a][c] = momentum[a][c] / mass[c];
     }
-    std::array<Donor<D>, reach> donors;
-    for (std::size_t c = ring - 1; c <= ring + line; ++c) {
-      Donor<D>& d = donors[c];
-      d.mass = mass[c], d.density = mass[c] / room[c], d.energy = energy[c];
-      for (int a = 0; a < D; ++a) d.velocity[a] = velocity[a][c], d.velocity_slope[a] = slope(velocity[a], c);
-    }
+    donors.find_slopes();
     const Lanes* swept = gas.swept_faces(block, axis, n);
-    std::array<Lanes, line_faces> dE, dp[D] = {};
+    const NextPencil<D> next(gas.cells, block, axis, n);
+    FacePencil dE, dp[D];
     for (std::size_t f = 0; f < line_faces; ++f) {
+      if (f < line) {
+        next.fetch(gas.moved, 0, gas.contents(), f);
+        next.fetch_to_write(gas.next, 0, gas.contents(), f);
+      }
       const Giving giving = giving_at(swept[f], room, gas.careful ? &plain : nullptr, f);
       const Lanes q = abs(swept[f]);
       // Volumes first: together they are what the face has swept. What the limits leave over goes to the largest. Of a fluid of
