@@ -4,7 +4,9 @@
 #include <omp.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "models/input/diagnostics.hpp"
 #include "models/input/material_folders.hpp"
@@ -41,8 +43,16 @@ struct Options {
   std::string key;
 };
 
-void use_threads(int threads) {
-  if (threads > 0) omp_set_num_threads(threads);
+/// As many threads as the user says; if he says nothing no more than pay: to wake one takes longer than a step of few points.
+/// On two threads 3840 particles and 10000 cells in the plane take as long as on one, 400 cells on a line two to twelve times
+/// as long.
+void use_threads(int threads, const Simulation& s) {
+  constexpr std::int64_t points_per_thread = 8000;
+  if (threads > 0)
+    omp_set_num_threads(threads);
+  else if (!std::getenv("OMP_NUM_THREADS"))
+    omp_set_num_threads(
+        static_cast<int>(std::clamp<std::int64_t>(count_points(s) / points_per_thread, 1, omp_get_max_threads())));
 }
 
 int tell(const RunResult& result, const Path& directory) {
@@ -77,11 +87,11 @@ Simulation set_up_or_refuse(const Case& c) {
 }
 
 int run_case(const Options& o) {
-  use_threads(o.threads);
   const Path file = find_case(o.file);
   const Case c = read_case(file, o.overrides);
   const Path directory = o.directory.empty() ? Path(file.stem().string() + "_run") : o.directory;
   Simulation s = set_up_or_refuse(c);
+  use_threads(o.threads, s);
   prepare_directory(directory, c, o.overwrite);
   const std::vector<std::string> warnings = set_up_warnings(c);
   for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -113,11 +123,11 @@ void look_ahead(const Case& c, const Path& directory, double until) {
 }
 
 int resume_run(const Options& o) {
-  use_threads(o.threads);
   const Case c = case_of_run(o.directory);
   const std::optional<double> until = until_time(o.until);
   if (until) look_ahead(c, o.directory, *until);
   Simulation s = set_up_or_refuse(c);
+  use_threads(o.threads, s);
   catch_interrupts();
   return tell(resume(c, s, {o.directory, until}), o.directory);
 }
@@ -134,9 +144,9 @@ int report_run(const Options& o) {
 }
 
 int check_case(const Options& o) {
-  use_threads(o.threads);
   const Case c = read_case(find_case(o.file), o.overrides);
   Simulation s = set_up_or_refuse(c);
+  use_threads(o.threads, s);
   const DryRun dry = dry_run(c, s);
   fmt::print("{}\n", c.title);
   const std::string_view point = name_of_points(s);
@@ -238,7 +248,10 @@ int run_command_line(int argc, char** argv) {
   int code = done;
   Options o;
   const auto add_threads = [&](CLI::App* command) {
-    command->add_option("--threads", o.threads, "threads; the results do not depend on it")->check(CLI::Range(1, 4096));
+    command
+        ->add_option("--threads", o.threads,
+                     "threads (if not given, OMP_NUM_THREADS or what pays); the results do not depend on it")
+        ->check(CLI::Range(1, 4096));
   };
   const auto add_case = [&](CLI::App* command) {
     command->add_option("CASE", o.file, "case file (TOML), or a name of `brisance list cases`")->required();

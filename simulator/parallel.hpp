@@ -46,7 +46,8 @@ void parallel_for_blocks(std::size_t count, F&& f) {
 /// Starts the program itself anew with what its libraries read before main() begins, unless the user has chosen:
 /// OMP_WAIT_POLICY=passive, so that threads that wait sleep (where there are more threads than free cores, those that spin keep
 /// those that work from their core); GLIBC_TUNABLES=glibc.malloc.hugetlb=1, so that large arrays stand in huge pages where the
-/// system has them. To be called first in main(); returns if all is well, or if nothing can be done about it.
+/// system has them. Once: BRISANCE_STARTED_ANEW says that it has. To be called first in main(); returns if all is well, or if
+/// nothing can be done about it.
 void choose_for_libraries(char** argv);
 
 }  // namespace brisance::simulator

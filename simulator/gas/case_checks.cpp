@@ -289,7 +289,7 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
     check_formulas(in, fill, c);
   if (profile && !fill.energy && !varies(fill)) check_rows(in, fill, *profile, c);
   if (others.empty() && in.has("shape")) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
-  if (!others.empty() && !in.has("shape"))
+  if (!others.empty() && !in.has("shape") && !fill.energy)
     in.problem(
         "without a `shape` it fills all of the box, and nothing is left of those before it; give it one, or put it first");
   if (fill.shape && holds_cells(in, c) &&
@@ -471,7 +471,7 @@ void check_fields(TableReader& in, const std::vector<std::string>& wanted, const
 }
 
 void check_in_box(TableReader& in, const Vector& from, const Vector& to, const Case& c) {
-  if (!geometry_known(in) || !in.sound({"from", "to"})) return;
+  if (!in.sound_in_file({"geometry", "gas.lower", "gas.upper"}) || !in.sound({"from", "to"})) return;
   for (std::size_t k = 0; k < dimensions_of(c); ++k)
     for (const Vector& place : {from, to})
       if (c.gas->lower[k] < c.gas->upper[k] && (place[k] < c.gas->lower[k] || place[k] > c.gas->upper[k]))

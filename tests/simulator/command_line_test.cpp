@@ -1,6 +1,7 @@
 // brisance as its users meet it: commands, files, messages and exit codes.
 
 #include <gtest/gtest.h>
+#include <omp.h>
 #include <signal.h>
 
 #include <cstdlib>
@@ -46,6 +47,29 @@ TEST(RunCommand, ACaseWithMistakesIsBadInput) {
   EXPECT_EQ(call({"run", (directory / "none.toml").string()}).code, bad_input);
   EXPECT_EQ(call({"fly"}).code, bad_input);
   EXPECT_EQ(call({"--help"}).code, done);
+}
+
+TEST(RunCommand, TakesAsManyThreadsAsPay) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string();
+  const auto threads_of = [&](const std::vector<std::string>& given) {
+    std::vector<std::string> words = {"run",        file, "-o", (directory / "run").string(), "--set", "end_time=0.1 us",
+                                      "--overwrite"};
+    words.insert(words.end(), given.begin(), given.end());
+    omp_set_num_threads(3);
+    EXPECT_EQ(call(words).code, done);
+    const std::string log = text_of(directory / "run" / "log.txt");
+    return log.substr(log.find(" thread") - 1, 1);
+  };
+  const int as_before = omp_get_max_threads();
+  setenv("OMP_NUM_THREADS", "3", 1);
+  EXPECT_EQ(threads_of({}), "3") << "as the user says";
+  EXPECT_EQ(threads_of({"--threads", "2"}), "2");
+  unsetenv("OMP_NUM_THREADS");
+  EXPECT_EQ(threads_of({"--threads", "2"}), "2");
+  EXPECT_EQ(threads_of({}), "1") << "few particles";
+  setenv("OMP_NUM_THREADS", "1", 1);
+  omp_set_num_threads(as_before);
 }
 
 TEST(RunCommand, RefusesADirectoryThatHoldsSomethingElse) {

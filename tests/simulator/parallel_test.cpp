@@ -64,10 +64,11 @@ INSTANTIATE_TEST_SUITE_P(Threads, Parallel, testing::Values(1, 2, 5));
 
 /// What a child process that calls choose_for_libraries ends with: the code of the program it became, or `returned`.
 constexpr int returned = 99, as_chosen = 42;
-int outcome_in_a_child(const char* wait_policy, const char* tunables) {
+int outcome_in_a_child(const char* wait_policy, const char* tunables, const char* started_anew = nullptr) {
   const pid_t child = fork();
   if (child == 0) {
     unsetenv("GOMP_SPINCOUNT");
+    started_anew ? setenv("BRISANCE_STARTED_ANEW", started_anew, 1) : unsetenv("BRISANCE_STARTED_ANEW");
     wait_policy ? setenv("OMP_WAIT_POLICY", wait_policy, 1) : unsetenv("OMP_WAIT_POLICY");
     tunables ? setenv("GLIBC_TUNABLES", tunables, 1) : unsetenv("GLIBC_TUNABLES");
     std::string words[] = {"a", "--gtest_also_run_disabled_tests", "--gtest_filter=*OfAProgramStartedAnew*"};
@@ -96,6 +97,7 @@ TEST(ChosenForLibraries, IsWhatTheUserHasNot) {
   EXPECT_EQ(outcome_in_a_child(nullptr, huge_pages), as_chosen);
   EXPECT_EQ(outcome_in_a_child("passive", huge_pages), returned);
   EXPECT_EQ(outcome_in_a_child("active", "glibc.malloc.hugetlb=0"), returned);
+  EXPECT_EQ(outcome_in_a_child(nullptr, nullptr, "1"), returned) << "what is taken away again is not set for ever";
 }
 
 }  // namespace
