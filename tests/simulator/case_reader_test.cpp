@@ -856,7 +856,6 @@ TEST(CaseReader, ReportsWhatCanBeJudgedWhateverElseIsWrong) {
                                            "gas.body.0.rotation: in the plane a body can only turn about z",
                                            "gas.body.0.particles_per_direction: 20",
                                            "gas.body.1.mass: \"1 m\" is not a mass",
-                                           "gauge.0.from: along x it leaves the box",
                                            "gauge.0.fields: \"presure\"",
                                            "gauge.0.colour: unknown key",
                                            "figure.0.kind: \"lines\" is unknown",
@@ -906,12 +905,18 @@ TEST(CaseReader, ReportsWhatCanBeJudgedWhateverElseIsWrong) {
            FirstRound{wrong_solids, of_solids},
            // Without a geometry nothing is known of places and directions.
            FirstRound{with_geometry(wrong_gas, "\"plane\"", "\"flat\""),
-                      without(of_gas, {"gas.upper", "gas.body: ", "gas.body.0.rotation", "gauge.0.from"})},
+                      without(of_gas, {"gas.upper", "gas.body: ", "gas.body.0.rotation"})},
            FirstRound{
                with_geometry(wrong_solids, "\"axisymmetric\"", "\"flat\""),
                without(of_solids, {"solid.0.velocity", "solid.1.shape", "boundary.1.position", "gauge.1.from", "gauge.1.to"})},
            FirstRound{head + "[gas]\nlower = [0, 0]\nupper = [10, 10]\n",
                       {"gas.fluid: missing: a gas or liquid; begin one by [[gas.fluid]]", "gas.fill: missing"}},
+           // A box that cannot be read is not one that ends at the origin.
+           FirstRound{
+               head +
+                   "[gas]\nlower = [-60, 0]\nupper = [\"x\", 10]\n[[gauge]]\nname = \"a\"\nkind = \"point\"\nfrom = [50, 0]\n"
+                   "fields = [\"pressure\"]\n",
+               {"gas.upper", "gas.fluid: missing", "gas.fill: missing"}},
            FirstRound{head + "gas = 3\nsolid = 2\n[[gauge]]\nname = \"a\"\nkind = \"point\"\nfrom = [50, 0]\nfields = "
                              "[\"pressure\"]\n",
                       {"gas: this is the number 3", "solid: this is the number 2"}},
