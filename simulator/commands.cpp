@@ -68,7 +68,8 @@ int tell(const RunResult& result, const Path& directory) {
       return failed_while_running;
     case Ending::interrupted:
       std::fflush(stdout);
-      fmt::print(stderr, "interrupted; go on with: brisance resume {}\n", directory.string());
+      fmt::print(stderr, "interrupted; go on with: brisance resume {0}\npictures of what was reached: brisance report {0}\n",
+                 directory.string());
       return interrupted;
     default:
       return done;
