@@ -62,8 +62,8 @@ struct Wanted {
 };
 
 /// Asks the memory for columns of the particle at a place of the bins' order. As a rule it is the last of eight neighbours in
-/// memory, of which the others are in the same pack or in the one before, which the eight before have asked for. Inlined, or GCC
-/// takes what does nothing else for a function without effect, and leaves it out.
+/// memory, of which the others are in the same pack or in the one before, which the eight before have asked for. Inlined, or
+/// GCC takes what does nothing else for a function without effect, and leaves it out.
 [[gnu::always_inline]] inline void fetch(const Bins& bins, std::size_t place, std::initializer_list<Wanted> wanted) {
   if (place >= bins.order.size()) return;
   for (const Wanted& w : wanted) {
