@@ -9,7 +9,8 @@
 
 namespace brisance::simulator {
 
-/// Reads a case with its materials; overrides are texts such as "solid.0.material.flow_stress.A=95 MPa". Throws InputError with
+/// Reads a case with its materials; overrides are texts such as "solid.0.material.flow_stress.A=95 MPa", and the
+/// subtitle names them. Throws InputError with
 /// all problems. What it returns is consistent: every name refers to something, and every body and boundary is where it can be.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 

@@ -149,7 +149,7 @@ int check_case(const Options& o) {
   Simulation s = set_up_or_refuse(c);
   use_threads(o.threads, s);
   const DryRun dry = dry_run(c, s);
-  fmt::print("{}\n", c.title);
+  fmt::print("{}\n{}", c.title, c.subtitle.empty() ? "" : "  " + c.subtitle + '\n');
   const std::string_view point = name_of_points(s);
   for (const DryRun::Points& p : dry.points) fmt::print("  {:24} {} {}\n", p.name, p.count, p.kind);
   fmt::print("  {:24} {:.1f} MB\n  {:24} {:.4g} s, limited by {}\n", "memory", dry.megabytes, "time step", dry.first_step,

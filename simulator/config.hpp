@@ -300,6 +300,7 @@ struct NumericsConfig {
 
 struct Case {
   std::string title;
+  std::string subtitle;  // "with cell_size=1 mm": what differs from the file of this title
   std::filesystem::path file;
   Geometry geometry = Geometry::three_dimensional;
   double cell_size = 0.0;  // m

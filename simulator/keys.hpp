@@ -350,6 +350,8 @@ inline constexpr auto keys<NumericsConfig> = std::tuple{
 template <>
 inline constexpr auto keys<Case> =
     std::tuple{Key{"title", &Case::title, Unit::one, "one line; the name of the file if not given"},
+               Key{"subtitle", &Case::subtitle, Unit::one,
+                   "stands below the title in summary and figures; a run adds what --set has changed"},
                Key{"geometry", &Case::geometry, Unit::one,
                    "plane: x, y; axisymmetric: x is the radius, y along the axis; three_dimensional: x, y, z; of gas "
                    "alone: planar_1d: x; cylindrical_1d, spherical_1d: x is the radius",

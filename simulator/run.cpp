@@ -70,7 +70,8 @@ class Run {
 
   RunResult begin() {
     const int threads = omp_get_max_threads();
-    log_.line(fmt::format("{}: {} {}s, {} thread{}", case_.title, count_points(s_), name_of_points(s_), threads,
+    const std::string subtitle = case_.subtitle.empty() ? "" : ", " + case_.subtitle;
+    log_.line(fmt::format("{}{}: {} {}s, {} thread{}", case_.title, subtitle, count_points(s_), name_of_points(s_), threads,
                           threads == 1 ? "" : "s"));
     for (const std::string& warning : options_.warnings) log_.line("warning: " + warning);
     if (const std::string what = not_gated(case_.gates, s_); !what.empty()) log_.line("not gated: " + what);
@@ -295,7 +296,8 @@ class Run {
   void summarise(RunResult& result) {
     const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
     Summary& summary = result.summary;
-    summary.title = case_.title, summary.ending = word_of(result.ending), summary.message = result.message;
+    summary.title = case_.title, summary.subtitle = case_.subtitle, summary.ending = word_of(result.ending),
+    summary.message = result.message;
     summary.time = s_.time, summary.steps = s_.step, summary.particles = count_points(s_);
     summary.wall_time = log_.wall_time(), summary.threads = omp_get_max_threads();
     summary.particle_steps_per_second = static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds;
@@ -352,6 +354,7 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
   std::vector<std::string> troubles;
   const Restored restored = restore_newest(directory, s, [&](const std::string& trouble) { troubles.push_back(trouble); });
   Summary summary{c.title,
+                  c.subtitle,
                   "as of " + restored.file.filename().string(),
                   "",
                   s.time,

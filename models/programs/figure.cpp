@@ -233,11 +233,15 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
     double& row = row_heights[static_cast<std::size_t>(cells[i].row)];
     row = std::max(row, figure.panels[i].height * figure.panel_height);
   }
-  constexpr int title_height = 34;
+  const int title_height = figure.subtitle.empty() ? 34 : 50;
   const int width = columns * figure.panel_width;
   constexpr double largest_font = 13.0, smallest_font = 8.0, width_of_letter = 0.69;  // on average, of the font's size
   const double title_font =
       std::clamp(width / (width_of_letter * static_cast<double>(figure.title.size())), smallest_font, largest_font);
+  constexpr double subtitle_font = 10.0;
+  const auto most_letters = static_cast<std::size_t>(width / (width_of_letter * subtitle_font));
+  const std::string subtitle =
+      figure.subtitle.size() > most_letters ? figure.subtitle.substr(0, most_letters - 3) + "..." : figure.subtitle;
   const double height = std::ceil(std::accumulate(row_heights.begin(), row_heights.end(), 0.0) + title_height);
   replace_file(path, [&](const std::filesystem::path& temporary) {
     {
@@ -248,7 +252,9 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
         plot << fmt::format("set terminal svg enhanced font 'DejaVu Sans,11' size {},{} background 'white'\n", width, height);
       plot << "set encoding utf8\nset output " << quoted_text(temporary.string()) << "\n";
       plot << "set border 3 lw 1.2\nset tics nomirror out scale 0.6 font ',10'\nset grid lc rgb '#e4e4e4' lw 0.6\n";
-      plot << fmt::format("set multiplot title {} font ',{:.3g}'\n", plain(figure.title), title_font);
+      const std::string below =
+          subtitle.empty() ? "" : fmt::format(".\"\\n{{/={} \".{}.\"}}\"", subtitle_font, plain(subtitle));
+      plot << fmt::format("set multiplot title {}{} font ',{:.3g}'\n", plain(figure.title), below, title_font);
       for (std::size_t i = 0; i < cells.size(); ++i) {
         const auto row = row_heights.begin() + cells[i].row;
         const double above = std::accumulate(row_heights.begin(), row + 1, static_cast<double>(title_height));

@@ -149,6 +149,12 @@ Panel against_time(const std::string& title, std::string_view quantity, const st
   return panel;
 }
 
+/// Every figure says what its case is.
+void draw(const Case& c, Figure figure, const Path& path) {
+  figure.subtitle = c.subtitle;
+  brisance::draw(figure, path);
+}
+
 /// Colours in the order of the curves; where there are more, the others are dashed.
 void colour_in_order(Panel& panel) {
   for (std::size_t k = 0; k < panel.curves.size(); ++k) {
@@ -177,7 +183,7 @@ void draw_energy(const Case& c, const Path& directory) {
                                   curve("filter_heat", "heat of the filter", 3),
                                   curve("stress_timing_energy", "stress timing", 2), curve("energy_residual", "in no book", 6)},
                                  unit);
-  draw({c.title, {std::move(physical), std::move(numerical)}, 1, 900, 380}, directory / "energy.png");
+  draw(c, {c.title, {std::move(physical), std::move(numerical)}, 1, 900, 380}, directory / "energy.png");
 }
 
 /// What has changed the energy of the gas since the start.
@@ -204,7 +210,7 @@ void draw_gas_energy(const Case& c, const Simulation& s, const Path& directory) 
   curves.push_back({"total, change", {}, std::move(change), Mark::dashed});
   Panel panel = against_time("Energy of the gas", "energy", time, std::move(curves), unit, noise);
   colour_in_order(panel);
-  draw({c.title, {std::move(panel)}, 1, 900, 380}, directory / "energy.png");
+  draw(c, {c.title, {std::move(panel)}, 1, 900, 380}, directory / "energy.png");
 }
 
 /// How bodies in the gas move, and what drives them.
@@ -244,7 +250,7 @@ void draw_gas_bodies(const Case& c, const Simulation& s, const Path& directory) 
     figure.panels.push_back(against_time("", quantity, known(time), std::move(curves), unit, noise));
     colour_in_order(figure.panels.back());
   }
-  draw(figure, directory / "bodies.png");
+  draw(c, std::move(figure), directory / "bodies.png");
 }
 
 /// What has burned, and its heat.
@@ -261,7 +267,7 @@ void draw_reactions(const Case& c, const Simulation& s, const Path& directory) {
     figure.panels.push_back(against_time("", quantity, time, std::move(curves), unit));
     colour_in_order(figure.panels.back());
   }
-  draw(figure, directory / "reactions.png");
+  draw(c, std::move(figure), directory / "reactions.png");
 }
 
 /// A panel for each field that gauges have recorded, as many of them as there are colours.
@@ -297,7 +303,7 @@ void draw_gauges(const Case& c, const Path& directory) {
           {in_words(s->label), scaled(s->time, times.per_si), scaled(s->value, scale.per_si), Mark::line, colour++});
     figure.panels.push_back(std::move(panel));
   }
-  draw(figure, directory / "gauges.png");
+  draw(c, std::move(figure), directory / "gauges.png");
 }
 
 /// Half a particle in units of gnuplot's point size, on a panel so many pixels wide that shows so many metres.
@@ -498,7 +504,7 @@ void draw_field(const Case& c, const Simulation& s, const Path& directory, Of of
       *length = scaled(std::move(*length), lengths.per_si);
     figure.panels.front().curves.push_back(std::move(*curve));
   }
-  draw(figure, directory / "field.png");
+  draw(c, std::move(figure), directory / "field.png");
 }
 
 /// The fields of a figure along its line, one below the other.
@@ -529,7 +535,7 @@ void draw_line(const Case& c, const Simulation& s, const FigureConfig& config, c
       panel.curves.push_back(curve("reference", reference, Mark::thin, 6));  // over the broader dots: both are seen
     figure.panels.push_back(std::move(panel));
   }
-  draw(figure, directory / fmt::format("line_{}.png", config.name));
+  draw(c, std::move(figure), directory / fmt::format("line_{}.png", config.name));
 }
 
 /// The outline of a body about its axis, whole, with what experiments say.
@@ -583,7 +589,7 @@ void draw_profile(const Case& c, const Simulation& s, const MeasureConfig& measu
     curve->x = scaled(std::move(curve->x), lengths.per_si), curve->y = scaled(std::move(curve->y), lengths.per_si);
   }
   figure.panels.front().curves = {std::move(strained), std::move(outline), std::move(measured)};
-  draw(figure, directory / fmt::format("profile_{}.png", body.name));
+  draw(c, std::move(figure), directory / fmt::format("profile_{}.png", body.name));
 }
 
 }  // namespace

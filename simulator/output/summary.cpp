@@ -130,7 +130,12 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
   versions.set("brisance", BRISANCE_VERSION).set("compiler", __VERSION__).set("hdf5", hdf5_version());
   versions.set("instruction_set", BRISANCE_INSTRUCTION_SET);
   Json all = Json::object();
-  all.set("title", s.title).set("ending", s.ending).set("message", s.message).set("time", s.time).set("steps", s.steps);
+  all.set("title", s.title)
+      .set("subtitle", s.subtitle)
+      .set("ending", s.ending)
+      .set("message", s.message)
+      .set("time", s.time)
+      .set("steps", s.steps);
   const std::string points = s.books.gas ? "cell" : "particle";
   all.set(points + "s", s.particles)
       .set("measures", measures)
@@ -155,8 +160,9 @@ bool tells_of_failure(const std::filesystem::path& path) {
 }
 
 std::string in_words(const Summary& s) {
-  std::string text = fmt::format("{}: {}\n  time {:.6g} s, {} steps, {} {}, {:.2f} s on the clock\n", s.title, s.ending, s.time,
-                                 s.steps, s.particles, s.books.gas ? "cells" : "particles", s.wall_time);
+  std::string text = fmt::format("{}: {}\n{}  time {:.6g} s, {} steps, {} {}, {:.2f} s on the clock\n", s.title, s.ending,
+                                 s.subtitle.empty() ? "" : "  " + s.subtitle + '\n', s.time, s.steps, s.particles,
+                                 s.books.gas ? "cells" : "particles", s.wall_time);
   if (!s.measures.empty())
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", "measure", "computed", "measured", "deviation");
   for (const MeasuredValue& m : s.measures) {

@@ -12,7 +12,7 @@
 namespace brisance::simulator {
 
 struct Summary {
-  std::string title, ending, message;
+  std::string title, subtitle, ending, message;
   double time = 0.0;                      // s
   std::int64_t steps = 0, particles = 0;  // or cells, of gas
   double wall_time = 0.0;                 // s

@@ -39,6 +39,21 @@ TEST(RunCommand, LeavesACompleteDirectoryAndSaysWhatCameOut) {
     EXPECT_TRUE(fs::exists(directory / "run" / name)) << name << "\n" << text_of(directory / "run" / "log.txt");
 }
 
+/// What was computed is not what the title says: a line below it tells the difference, then and later.
+TEST(RunCommand, NamesWhatWasSet) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
+                    run = (directory / "run").string(), said = "with end_time=0.2 us, numerics.courant=0.3";
+  const std::vector<std::string> set = {"--set", "end_time=0.2 us", "--set", "numerics.courant=0.3"};
+  std::vector<std::string> words = {"run", file, "-o", run};
+  words.insert(words.end(), set.begin(), set.end());
+  EXPECT_TRUE(contains(call(words).out, "Small bar: done\n  " + said + '\n'));
+  EXPECT_TRUE(contains(text_of(directory / "run" / "summary.json"), "\"subtitle\": \"" + said + '"'));
+  EXPECT_TRUE(contains(text_of(directory / "run" / "log.txt"), "Small bar, " + said));
+  EXPECT_TRUE(contains(call({"report", run}).out, said));
+  EXPECT_FALSE(contains(call({"check", file}).out, "Small bar\n  with "));
+}
+
 TEST(RunCommand, ACaseWithMistakesIsBadInput) {
   const fs::path directory = scratch();
   const Answer a = call({"run", write_text(directory / "bar.toml", small_bar("[numerics]\ncourrant = 0.3\n")).string()});

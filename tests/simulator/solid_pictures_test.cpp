@@ -82,6 +82,14 @@ TEST(TheCellsOfParticles, AreNoLongerThanNeighboursFeelEachOther) {
 }
 
 /// Of a body in space, the layer of particles that the plane z = 0 cuts.
+TEST(EveryPicture, SaysBelowItsTitleHowItsCaseDiffersAsFarAsThereIsRoom) {
+  Case c = disk();
+  c.title = "disk", c.subtitle = "with cell_size=1 mm, " + std::string(300, 'x') + "end";
+  const std::string told = told_to_gnuplot(c, set_up(c), scratch());
+  EXPECT_TRUE(contains(told, "{/=10 \".\"with cell\\\\_size=1 mm")) << told.substr(0, 1000);
+  EXPECT_TRUE(contains(told, "xxx...\"")) << told.substr(0, 1000);
+}
+
 TEST(TheCellsOfParticles, InSpaceAreThoseOfTheMiddle) {
   Case c;
   c.geometry = Geometry::three_dimensional, c.cell_size = h, c.end_time = 1e-5;
