@@ -135,13 +135,15 @@ int resume_run(const Options& o) {
 
 int report_run(const Options& o) {
   const Case c = case_of_run(o.directory);
+  const std::optional<ToldEnding> told = read_ending(o.directory / "summary.json");
+  const bool failed = told && told->ending == word_of(Ending::failed);
+  if (failed) fmt::print(stderr, "this run failed at {:.6g} s: {}\n", told->time, told->message);
   Simulation s = set_up_or_refuse(c);
   const Summary summary = report(c, s, o.directory);
   fmt::print("{}", in_words(summary));
-  if (summary.message.empty()) return done;
   std::fflush(stdout);
-  fmt::print(stderr, "{}\n", summary.message);
-  return failed_while_running;
+  if (!summary.message.empty()) fmt::print(stderr, "{}\n", summary.message);
+  return failed || !summary.message.empty() ? failed_while_running : done;
 }
 
 int check_case(const Options& o) {

@@ -288,11 +288,6 @@ class Run {
     for (const std::string& trouble : draw_figures(case_, s_, options_.directory)) log_.line(trouble);
   }
 
-  static std::string word_of(Ending ending) {
-    constexpr std::array words = {"done", "failed", "interrupted", "done"};
-    return words[static_cast<std::size_t>(ending)];
-  }
-
   void summarise(RunResult& result) {
     const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
     Summary& summary = result.summary;
@@ -340,6 +335,11 @@ std::string_view name_of_points(const Simulation& s) {
   return s.gas.empty() ? "particle" : "cell";
 }
 
+std::string word_of(Ending ending) {
+  constexpr std::array words = {"done", "failed", "interrupted", "done"};
+  return words[static_cast<std::size_t>(ending)];
+}
+
 RunResult run(const Case& c, Simulation& s, const RunOptions& options) {
   return Run(c, s, options).begin();
 }
@@ -350,12 +350,13 @@ RunResult resume(const Case& c, Simulation& s, const RunOptions& options) {
 
 Summary report(const Case& c, Simulation& s, const Path& directory) {
   const Measures measures(c, s);
-  const Of of = tells_of_failure(directory / "summary.json") ? Of::failed_run : Of::good_run;
+  const std::string ending = read_ending(directory / "summary.json").value_or(ToldEnding{"has no end yet", ""}).ending;
+  const Of of = ending == word_of(Ending::failed) ? Of::failed_run : Of::good_run;
   std::vector<std::string> troubles;
   const Restored restored = restore_newest(directory, s, [&](const std::string& trouble) { troubles.push_back(trouble); });
   Summary summary{c.title,
                   c.subtitle,
-                  "as of " + restored.file.filename().string(),
+                  ending + ", as of " + restored.file.filename().string(),
                   "",
                   s.time,
                   s.step,

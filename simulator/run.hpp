@@ -15,6 +15,8 @@
 namespace brisance::simulator {
 
 enum class Ending { done, failed, interrupted, nothing_left };
+/// As summary.json tells it.
+std::string word_of(Ending ending);
 
 struct RunOptions {
   std::filesystem::path directory;  // as prepare_directory made it

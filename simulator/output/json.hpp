@@ -5,12 +5,28 @@
 
 #include <cmath>
 #include <concepts>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace brisance::simulator {
+
+/// The text that a quoted one of this file's makes begins with; empty if it begins with none.
+inline std::string unquoted(std::string_view json) {
+  std::string text;
+  if (json.empty() || json.front() != '"') return text;
+  for (std::size_t i = 1; i < json.size() && json[i] != '"'; ++i) {
+    if (json[i] != '\\' || i + 1 == json.size())
+      text += json[i];
+    else if (json[++i] != 'u')
+      text += json[i];
+    else
+      text += static_cast<char>(std::strtol(std::string(json.substr(i + 1, 4)).c_str(), nullptr, 16)), i += 4;
+  }
+  return text;
+}
 
 class Json {
  public:

@@ -11,6 +11,7 @@
 #include "simulator/case_reader.hpp"
 #include "simulator/output/checkpoint.hpp"
 #include "simulator/output/grid_snapshot.hpp"
+#include "simulator/output/summary.hpp"
 
 namespace brisance::simulator {
 namespace {
@@ -35,8 +36,8 @@ std::string text_of(const fs::path& path) {
 }
 
 bool is_finished(const fs::path& directory) {
-  const fs::path summary = directory / "summary.json";
-  return fs::exists(summary) && text_of(summary).find("\"ending\": \"done\"") != std::string::npos;
+  const std::optional<ToldEnding> told = read_ending(directory / "summary.json");
+  return told && told->ending == "done";
 }
 
 using Files = std::vector<std::pair<std::string, std::string>>;  // name, content

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <numbers>
@@ -153,10 +154,16 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
   replace_file_by_text(path, all.set("versions", versions).text());
 }
 
-bool tells_of_failure(const std::filesystem::path& path) {
+std::optional<ToldEnding> read_ending(const std::filesystem::path& path) {
   std::ifstream in(path);
+  if (!in) return std::nullopt;
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  return text.find("\"ending\": \"failed\"") != std::string::npos;
+  const auto after = [&](const std::string& key) {
+    const std::string before = "\n  \"" + key + "\": ";  // of the outermost object
+    const auto at = text.find(before);
+    return at == std::string::npos ? "" : text.substr(at + before.size());
+  };
+  return ToldEnding{unquoted(after("ending")), unquoted(after("message")), std::strtod(after("time").c_str(), nullptr)};
 }
 
 std::string in_words(const Summary& s) {

@@ -2,6 +2,7 @@
 // summary.json and the same for people to read.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,12 @@ struct Summary {
   std::string not_gated{};         // what no gate watches
 };
 
-/// Whether a summary that was written tells of a run that failed; not if there is none.
-bool tells_of_failure(const std::filesystem::path& path);
+/// How a run came to its end, as the summary that it wrote tells it; nothing if there is none.
+struct ToldEnding {
+  std::string ending, message;
+  double time = 0.0;  // s, simulated
+};
+std::optional<ToldEnding> read_ending(const std::filesystem::path& path);
 void write_summary(const Summary& summary, const std::filesystem::path& path);
 /// A table of the measures and the energies; without the message.
 std::string in_words(const Summary& summary);

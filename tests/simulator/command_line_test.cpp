@@ -147,6 +147,12 @@ TEST(RunCommand, BooksThatDoNotCloseEndTheRunWithAReport) {
   EXPECT_TRUE(contains(a.out, "in no book")) << a.out;
   const std::string summary = text_of(directory / "run" / "summary.json");
   EXPECT_TRUE(contains(summary, "\"ending\": \"failed\"") && contains(summary, "gate residual: ")) << summary;
+
+  const Answer report = call({"report", run});
+  EXPECT_EQ(report.code, failed_while_running);
+  EXPECT_TRUE(report.err.starts_with("this run failed at 5")) << report.err;
+  EXPECT_TRUE(contains(report.err, a.err.substr(0, a.err.find("\npictures of")))) << report.err;
+  EXPECT_TRUE(report.out.starts_with("Small bar: failed, as of checkpoint_")) << report.out;
 }
 
 TEST(ResumeCommand, GoesOnUntilALaterTimeAndReportTellsTheSame) {

@@ -577,9 +577,13 @@ TEST(Gates, ARunThatExceedsOneStopsAndSaysWhich) {
   EXPECT_NE(r.result.message.find("gate fastest"), std::string::npos) << r.result.message;
   EXPECT_NE(r.result.message.find("190"), std::string::npos) << r.result.message;
   EXPECT_NE(text_of(r.directory / "summary.json").find("\"ending\": \"failed\""), std::string::npos);
-  EXPECT_TRUE(tells_of_failure(r.directory / "summary.json"));
-  EXPECT_FALSE(tells_of_failure(SmallRun("[output]\nfigures = false\n", 2).directory / "summary.json")) << "interrupted";
-  EXPECT_FALSE(tells_of_failure(r.directory / "no summary"));
+  const std::optional<ToldEnding> told = read_ending(r.directory / "summary.json");
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->ending, "failed");
+  EXPECT_EQ(told->message, r.result.message);
+  EXPECT_EQ(told->time, r.s.time);
+  EXPECT_EQ(read_ending(SmallRun("[output]\nfigures = false\n", 2).directory / "summary.json")->ending, "interrupted");
+  EXPECT_FALSE(read_ending(r.directory / "no summary"));
 }
 
 TEST(Gates, NumericalEnergyBeyondItsLimitStopsTheRunAfterACheckpoint) {
