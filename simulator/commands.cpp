@@ -117,8 +117,7 @@ std::optional<double> until_time(const std::string& text) {
 }
 
 /// What would be wrong with a case that lasted so long: it is refused or warned of as `run` does.
-void look_ahead(const Case& c, const Path& directory, double until) {
-  if (until <= c.end_time) return;
+void look_ahead(const Path& directory, double until) {
   for (const std::string& warning : set_up_warnings(case_of_run(directory, {fmt::format("end_time={:.17g}", until)})))
     fmt::print(stderr, "warning: {}\n", warning);
 }
@@ -126,9 +125,11 @@ void look_ahead(const Case& c, const Path& directory, double until) {
 int resume_run(const Options& o) {
   const Case c = case_of_run(o.directory);
   const std::optional<double> until = until_time(o.until);
-  if (until) look_ahead(c, o.directory, *until);
+  const bool later = until && *until > c.end_time;
+  if (later) look_ahead(o.directory, *until);
   Simulation s = set_up_or_refuse(c);
   use_threads(o.threads, s);
+  if (later) set_end_time(o.directory, c, *until);
   catch_interrupts();
   return tell(resume(c, s, {o.directory, until}), o.directory);
 }
@@ -274,8 +275,10 @@ int run_command_line(int argc, char** argv) {
 
   CLI::App* resume_command = app.add_subcommand("resume", "Go on with a run from its last checkpoint");
   resume_command->add_option("DIR", o.directory, "directory of the run")->required();
-  resume_command->add_option("--until", o.until,
-                             "simulated time at which to end, in s or such as \"100 us\", instead of the case's");
+  resume_command->add_option(
+      "--until", o.until,
+      "simulated time at which to end, in s or such as \"100 us\", instead of the case's; a later one becomes "
+      "the end of the case in DIR");
   add_threads(resume_command);
   resume_command->callback([&] { code = resume_run(o); });
 

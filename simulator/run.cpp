@@ -42,6 +42,18 @@ double megabytes_used() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+/// Begins the line of the log which tells what had ended a run that was resumed.
+constexpr std::string_view after = "resumed after ";
+/// The gates that had ended a run before it was resumed, each once.
+std::vector<std::string> gates_passed(const Path& directory) {
+  std::vector<std::string> gates;
+  for (const std::string& line : read_log(directory / "log.txt"))
+    if (line.starts_with(std::string(after) + "gate ")) gates.push_back(line.substr(after.size()));
+  std::sort(gates.begin(), gates.end());
+  gates.erase(std::unique(gates.begin(), gates.end()), gates.end());
+  return gates;
+}
+
 std::string clock_text(double seconds) {
   const auto s = static_cast<long>(std::min(seconds, 3.6e8));
   return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02}", s / 60, s % 60);
@@ -66,7 +78,7 @@ class Run {
         log_(options.directory / "log.txt"),
         gauges_(c, s),
         measures_(c, s),
-        row_interval_(c.output.history_interval > 0.0 ? c.output.history_interval : c.end_time / 500.0) {}
+        row_interval_(row_interval(c)) {}
 
   RunResult begin() {
     const int threads = omp_get_max_threads();
@@ -93,15 +105,20 @@ class Run {
       return begin();
     }
     const Restored restored = restore_newest(options_.directory, s_, [&](const std::string& trouble) { log_.line(trouble); });
-    if (at_end() && std::filesystem::exists(options_.directory / "summary.json")) return nothing_left();
+    const std::optional<ToldEnding> told = read_ending(options_.directory / "summary.json");
+    const bool had_failed = told && told->ending == word_of(Ending::failed);
+    if (at_end() && told && !had_failed) return nothing_left();
     log_.set_wall_time_before(restored.progress.wall_time);
     std::filesystem::remove(options_.directory / "summary.json");  // it told of the part before
     log_.line(fmt::format("goes on from {}, step {}, time {:.6g} s", restored.file.string(), s_.step, s_.time));
+    if (had_failed) log_.line(std::string(after) + told->message.substr(0, told->message.find('\n')));
     snapshot_times_ = restored.progress.snapshot_times;
     row_time_ = restored.progress.row_time;
     last_checkpoint_ = restored.file;
     return guarded([&] {
       history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), restored.progress.history_rows);
+      // A run that a gate has ended does not go on past it: its last row is judged again, by the gates as they are now.
+      if (row_time_ == s_.time) check_gates(case_.gates, s_, books_of(s_));
       loop();
     });
   }
@@ -121,6 +138,9 @@ class Run {
       const bool good = dynamic_cast<const StepFailure*>(&error) != nullptr;
       result.message = dynamic_cast<const std::bad_alloc*>(&error) ? "there is not enough memory" : error.what();
       result.message += foreseen_by_now() + "\n" + keep_last_state(good);
+      if (dynamic_cast<const GateExceeded*>(&error))
+        result.message += fmt::format("\nto go on all the same, raise the limit under [gates] in {} and resume",
+                                      (options_.directory / "case.toml").string());
     }
     progress_line_.reset();
     finish(result);
@@ -291,6 +311,7 @@ class Run {
   void summarise(RunResult& result) {
     const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
     Summary& summary = result.summary;
+    summary.resumed_after = gates_passed(options_.directory);
     summary.title = case_.title, summary.subtitle = case_.subtitle, summary.ending = word_of(result.ending),
     summary.message = result.message;
     summary.time = s_.time, summary.steps = s_.step, summary.particles = count_points(s_);
@@ -367,7 +388,8 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   books_of(s),
                   measures.read(s),
                   {},
-                  not_gated(c.gates, s)};
+                  not_gated(c.gates, s),
+                  gates_passed(directory)};
   for (auto& found :
        {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory, of)})
     troubles.insert(troubles.end(), found.begin(), found.end());

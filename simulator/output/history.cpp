@@ -218,6 +218,11 @@ std::vector<BookEntry> entries_of(const Books& books) {
   return entries;
 }
 
+double row_interval(const Case& c) {
+  constexpr double rows = 500.0;
+  return c.output.history_interval > 0.0 ? c.output.history_interval : c.end_time / rows;
+}
+
 History::History(std::filesystem::path path, const Books& books, const std::vector<HistoryColumn>& gauges,
                  std::int64_t rows_to_keep)
     : path_(std::move(path)) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/config.hpp"
 #include "simulator/gas/range_watch.hpp"
 #include "simulator/output/gauges.hpp"
 #include "simulator/simulation.hpp"
@@ -74,6 +75,9 @@ struct BookEntry {
   double value;
 };
 std::vector<BookEntry> entries_of(const Books& books);
+
+/// Time between rows, s.
+double row_interval(const Case& c);
 
 class History {
  public:

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <regex>
 #include <stdexcept>
 
 #include "models/programs/files.hpp"
 #include "simulator/case_reader.hpp"
 #include "simulator/output/checkpoint.hpp"
 #include "simulator/output/grid_snapshot.hpp"
+#include "simulator/output/history.hpp"
 #include "simulator/output/summary.hpp"
 
 namespace brisance::simulator {
@@ -40,11 +42,23 @@ bool is_finished(const fs::path& directory) {
   return told && told->ending == "done";
 }
 
+constexpr std::string_view after_time = " s  ";  // in a line of the log
+
 using Files = std::vector<std::pair<std::string, std::string>>;  // name, content
 
 bool holds(const fs::path& directory, const Files& files) {
   return std::all_of(files.begin(), files.end(),
                      [&](const auto& file) { return text_of(directory / file.first) == file.second; });
+}
+
+/// Calls f(path, stem of the name that it has in the directory of a run) for what a case reads and what comes along.
+template <class F>
+void for_each_profile(Case& c, F&& f) {
+  for (MeasureConfig& measure : c.measures)
+    if (!measure.profile.empty()) f(measure.profile, "measured_profile");
+  if (!c.gas) return;
+  for (FillConfig& fill : c.gas->fills)
+    if (fill.profile) f(fill.profile->file, "gas_profile");
 }
 
 }  // namespace
@@ -53,15 +67,10 @@ void prepare_directory(const fs::path& directory, const Case& c, bool overwrite)
   // What the case reads comes along, so that the directory can be moved and the run resumed.
   Case own = c;
   Files profiles;
-  const auto take_along = [&](fs::path& profile, const std::string& stem) {
+  for_each_profile(own, [&](fs::path& profile, std::string_view stem) {
     profiles.emplace_back(fmt::format("{}_{}.csv", stem, profiles.size()), text_of(profile));
     profile = profiles.back().first;
-  };
-  for (MeasureConfig& measure : own.measures)
-    if (!measure.profile.empty()) take_along(measure.profile, "measured_profile");
-  if (own.gas)
-    for (FillConfig& fill : own.gas->fills)
-      if (fill.profile) take_along(fill.profile->file, "gas_profile");
+  });
   const std::string text = write_case(own);
   if (fs::exists(directory) && !fs::is_directory(directory))
     throw std::invalid_argument(fmt::format("{}: is a file; a run needs a directory", directory.string()));
@@ -86,6 +95,27 @@ void prepare_directory(const fs::path& directory, const Case& c, bool overwrite)
   replace_file_by_text(directory / "case.toml", text);
 }
 
+void set_end_time(const fs::path& directory, Case c, double end_time) {
+  c.output.history_interval = row_interval(c);
+  c.end_time = end_time;
+  c.subtitle = std::regex_replace(c.subtitle, std::regex("\\bend_time=[^,]*"), fmt::format("end_time={:.6g} s", end_time));
+  for_each_profile(c, [&](fs::path& profile, std::string_view) {  // what came along stays beside the case
+    std::error_code elsewhere;
+    if (fs::equivalent(profile.parent_path(), directory, elsewhere)) profile = profile.filename();
+  });
+  replace_file_by_text(directory / "case.toml", write_case(c));
+}
+
+std::vector<std::string> read_log(const fs::path& path) {
+  std::vector<std::string> lines;
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);) {
+    const auto time_ends = line.find(after_time);
+    lines.push_back(time_ends == std::string::npos ? line : line.substr(time_ends + after_time.size()));
+  }
+  return lines;
+}
+
 Log::Log(const fs::path& path, double wall_time_before) : out_(path, std::ios::app), before_(wall_time_before) {}
 
 double Log::wall_time() const {
@@ -93,7 +123,7 @@ double Log::wall_time() const {
 }
 
 void Log::line(const std::string& text) {
-  out_ << fmt::format("{:10.2f} s  {}\n", wall_time(), text) << std::flush;
+  out_ << fmt::format("{:10.2f}{}{}\n", wall_time(), after_time, text) << std::flush;
 }
 
 }  // namespace brisance::simulator

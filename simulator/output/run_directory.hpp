@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "simulator/config.hpp"
 
@@ -29,5 +30,12 @@ class Log {
   double before_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// The lines of a log without their times; none if there is no log.
+std::vector<std::string> read_log(const std::filesystem::path& path);
+
+/// Makes `end_time` (s) that of the case in the directory of a run, `c` as it was read from there: what goes on next ends then,
+/// too. Rows of the history keep their distance.
+void set_end_time(const std::filesystem::path& directory, Case c, double end_time);
 
 }  // namespace brisance::simulator

@@ -150,6 +150,9 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
     for (const gas::RangeReport& report : s.books.gas->outside) outside.set(report.fluid, json_of(report));
     all.set("outside_declared_densities", outside).set("not_gated", s.not_gated);
   }
+  Json resumed_after = Json::list();
+  for (const std::string& gate : s.resumed_after) resumed_after.append(gate);
+  all.set("resumed_after", resumed_after);
   all.set("wall_time", s.wall_time).set(points + "_steps_per_second", s.particle_steps_per_second).set("threads", s.threads);
   replace_file_by_text(path, all.set("versions", versions).text());
 }
@@ -170,6 +173,7 @@ std::string in_words(const Summary& s) {
   std::string text = fmt::format("{}: {}\n{}  time {:.6g} s, {} steps, {} {}, {:.2f} s on the clock\n", s.title, s.ending,
                                  s.subtitle.empty() ? "" : "  " + s.subtitle + '\n', s.time, s.steps, s.particles,
                                  s.books.gas ? "cells" : "particles", s.wall_time);
+  for (const std::string& gate : s.resumed_after) text += fmt::format("  caution: resumed after {}\n", gate);
   if (!s.measures.empty())
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", "measure", "computed", "measured", "deviation");
   for (const MeasuredValue& m : s.measures) {

@@ -155,6 +155,68 @@ TEST(RunCommand, BooksThatDoNotCloseEndTheRunWithAReport) {
   EXPECT_TRUE(report.out.starts_with("Small bar: failed, as of checkpoint_")) << report.out;
 }
 
+/// The bar is slower than the gate's limit by the second row; that the first one was beyond it is not forgotten.
+TEST(ResumeCommand, DoesNotPassAGateUnlessItsLimitIsRaisedAndTellsOfIt) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(
+                               directory / "bar.toml",
+                               small_bar("[gates]\nfastest = 189\n[output]\nfigures = false\nhistory_interval = \"6.9 us\"\n"))
+                               .string(),
+                    run = (directory / "run").string();
+  ASSERT_EQ(call({"run", file, "-o", run}).code, failed_while_running);
+  const Answer again = call({"resume", run});
+  EXPECT_EQ(again.code, failed_while_running) << again.out;
+  EXPECT_TRUE(contains(again.err, "gate fastest: ") && contains(again.err, "time 0 s")) << again.err;
+  EXPECT_TRUE(contains(again.err, "raise the limit under [gates] in " + run + "/case.toml and resume")) << again.err;
+
+  std::string text = text_of(directory / "run" / "case.toml");
+  text.replace(text.find("fastest = 189"), 13, "fastest = 191");
+  write_text(directory / "run" / "case.toml", text);
+  const Answer on = call({"resume", run});
+  EXPECT_EQ(on.code, done) << on.err;
+  const std::string told = "resumed after gate fastest: a particle of bar";
+  const auto first = on.out.find(told);
+  EXPECT_NE(first, std::string::npos) << on.out;
+  EXPECT_EQ(on.out.find(told, first + 1), std::string::npos) << "once: " << on.out;
+  EXPECT_TRUE(contains(text_of(directory / "run" / "log.txt"), told));
+  EXPECT_TRUE(contains(text_of(directory / "run" / "summary.json"), "\"resumed_after\": [\n    \"gate fastest: "));
+  EXPECT_TRUE(contains(call({"report", run}).out, told));
+}
+
+/// So that a plain `resume` after an interrupt goes as far; the rows of the history keep their distance.
+TEST(ResumeCommand, RemembersALaterTimeAndKeepsWhatCameAlongBesideTheCase) {
+  const fs::path directory = scratch();
+  const std::string profile = write_text(directory / "profile.csv", "height [mm],radius [mm]\n1,3.3\n2,3.2\n").string();
+  const std::string file = write_text(directory / "bar.toml",
+                                      small_bar(no_figures + "[[measure]]\nkind = \"profile_error\"\naxis = "
+                                                             "\"y\"\nprofile = \"profile.csv\"\n"))
+                               .string(),
+                    run = (directory / "run").string();
+  ASSERT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.5 us"}).code, done);
+  ASSERT_EQ(call({"resume", run, "--until", "1 us"}).code, done);
+  fs::remove(profile);
+  fs::rename(directory / "run", directory / "moved");
+  const Case c = read_case(directory / "moved" / "case.toml");
+  EXPECT_EQ(c.end_time, 1e-6);
+  EXPECT_EQ(c.subtitle, "with end_time=1e-06 s");
+  EXPECT_DOUBLE_EQ(c.output.history_interval, 1e-9);
+  const Answer a = call({"resume", (directory / "moved").string()});
+  EXPECT_TRUE(contains(a.out, "come to 1e-06 s, and its end is at 1e-06 s")) << a.out << a.err;
+}
+
+/// An earlier time is a stop on the way.
+TEST(ResumeCommand, GoesOnToTheEndOfTheCaseAfterAnEarlierTime) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
+                    run = (directory / "run").string();
+  ASSERT_EQ(call({"run", file, "-o", run, "--set", "gates.fastest=1", "--set", "end_time=0.5 us"}).code, failed_while_running);
+  std::string text = text_of(directory / "run" / "case.toml");
+  text.replace(text.find("fastest = 1"), 11, "fastest = 999");
+  write_text(directory / "run" / "case.toml", text);
+  EXPECT_TRUE(contains(call({"resume", run, "--until", "0.2 us"}).out, "time 2e-07 s"));
+  EXPECT_TRUE(contains(call({"resume", run}).out, "time 5e-07 s"));
+}
+
 TEST(ResumeCommand, GoesOnUntilALaterTimeAndReportTellsTheSame) {
   const fs::path directory = scratch();
   const std::string file = write_text(directory / "bar.toml", small_bar(no_figures + "[[measure]]\nkind = \"final_length\"\n"))
