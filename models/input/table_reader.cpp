@@ -20,6 +20,11 @@ std::string allowed_for(const Quantity& quantity) {
   return allowed_texts(quantity.unit) + (bounded ? ", " + describe(quantity.interval) : "");
 }
 
+/// For what is never written as a text.
+std::string without_quotes(const TomlNode& node) {
+  return std::holds_alternative<std::string>(node.value) ? ", without quotes" : "";
+}
+
 std::string describe(Length length) {
   const std::string noun = length.most == 1 ? " element" : " elements";
   if (length.least == length.most) return std::to_string(length.least) + noun;
@@ -49,8 +54,9 @@ void TableReader::refuse(Place place, const std::string& path, std::string what)
   owner_->refused_.push_back(path);
 }
 
-void TableReader::wrong_type(const TomlNode& node, const std::string& path, const std::string& required) {
-  report(node.place, path, "this is " + kind_of(node) + "; " + required + " is required");
+void TableReader::wrong_type(const TomlNode& node, const std::string& path, const std::string& required,
+                             const std::string& hint) {
+  report(node.place, path, "this is " + kind_of(node) + "; " + required + " is required" + hint);
 }
 
 void TableReader::problem(std::string_view key, std::string what) {
@@ -219,7 +225,7 @@ int TableReader::integer_or(std::string_view key, int default_value, int lowest,
   const auto* const value = std::get_if<std::int64_t>(&node->value);
   const std::string allowed = "a whole number between " + std::to_string(lowest) + " and " + std::to_string(highest);
   if (!value) {
-    wrong_type(*node, path_of(key), allowed);
+    wrong_type(*node, path_of(key), allowed, without_quotes(*node));
     return default_value;
   }
   if (*value < lowest || *value > highest) {
@@ -238,7 +244,7 @@ bool TableReader::flag_or(std::string_view key, bool default_value) {
   const TomlNode* const node = read(key);
   if (!node) return default_value;
   const bool* const value = std::get_if<bool>(&node->value);
-  if (!value) wrong_type(*node, path_of(key), "true or false");
+  if (!value) wrong_type(*node, path_of(key), "true or false", without_quotes(*node));
   return value ? *value : default_value;
 }
 

@@ -143,7 +143,7 @@ class TableReader {
   void report(Place place, const std::string& path, std::string what);
   void refuse(Place place, const std::string& path, std::string what);
   void note(Place place, const std::string& path, std::string what);
-  void wrong_type(const TomlNode& node, const std::string& path, const std::string& required);
+  void wrong_type(const TomlNode& node, const std::string& path, const std::string& required, const std::string& hint = "");
   std::optional<double> number_in(const TomlNode& node, const std::string& path, const Quantity& quantity);
   NumberOrText number_or_text_in(const TomlNode& node, const std::string& path, const Quantity& quantity);
   std::vector<double> numbers_in(const TomlNode& node, const std::string& path, const Quantity& quantity, Length length);

@@ -290,6 +290,11 @@ const NamedQuantity* find_quantity(Unit unit) {
   return found == quantities.end() ? nullptr : &*found;
 }
 
+std::string example_of(Unit unit) {
+  const NamedQuantity* const known = find_quantity(unit);
+  return known ? std::string(known->example) : "1 " + std::string(unit.text);
+}
+
 /// What a unit that was not the expected one does measure.
 std::string meaning_of(const Measure& measure) {
   for (const NamedQuantity& quantity : quantities)
@@ -367,10 +372,14 @@ double to_si(std::string_view text, Unit expected) {
   const std::string_view trimmed_text = trimmed(text);
   const std::size_t length = length_of_number(trimmed_text);
   const std::string_view unit = trimmed(trimmed_text.substr(length));
+  if (length > 0 && unit.empty()) {
+    const bool plain = expected.text == Unit::one.text;
+    throw UnitError(in_quotes(text) + " is not " + quantity_of(expected) + (plain ? "" : ": the unit is missing") + "; give " +
+                    std::string(trimmed_text) + " without quotes" + (plain ? "" : ", in " + std::string(expected.text)) +
+                    ", or a text such as \"" + example_of(expected) + '"');
+  }
   try {
     if (length == 0) throw UnitError("it does not begin with a decimal number");
-    if (unit.empty())
-      throw UnitError(expected.text == Unit::one.text ? "numbers without unit stand without quotes" : "the unit is missing");
     return UnitConversion(unit, expected)(trimmed_text.substr(0, length));
   } catch (const UnitError& error) {
     throw UnitError(in_quotes(text) + " is not " + quantity_of(expected) + ": " + error.what() + "; give " +
@@ -393,10 +402,8 @@ std::string quantity_of(Unit unit) {
 }
 
 std::string allowed_texts(Unit unit) {
-  const NamedQuantity* const known = find_quantity(unit);
-  const std::string example = known ? std::string(known->example) : "1 " + std::string(unit.text);
   return (unit.text == Unit::one.text ? "a number" : "a number in " + std::string(unit.text)) + " or a text such as \"" +
-         example + '"';
+         example_of(unit) + '"';
 }
 
 std::string describe(const Interval& interval) {
