@@ -70,13 +70,15 @@ std::optional<double> number_of(const std::optional<Varying>& value) {
   return value ? std::optional(value->number) : std::nullopt;
 }
 
-/// `elsewhere`: where else density and pressure come from; empty: nowhere.
+/// Where else density and pressure come from; empty: nowhere.
 struct Elsewhere {
   std::string density, pressure;
+  bool needs_density = false;  // what stands in the place of the pressure cannot do with a temperature
 };
 
+/// The fluid of a state: the only one if none is named.
 template <class State>
-void check_gas_state(TableReader& in, State& state, const Case& c, const Elsewhere& elsewhere = {}) {
+void check_fluid_of(TableReader& in, State& state, const Case& c) {
   if (state.fluid.empty() && c.gas->fluids.size() == 1) {
     state.fluid = c.gas->fluids.front().name;
   } else if (in.sound({"fluid"}) && fluids_named(c)) {
@@ -88,20 +90,37 @@ void check_gas_state(TableReader& in, State& state, const Case& c, const Elsewhe
       in.problem("fluid", "there is no fluid " + in_quotes(state.fluid) + "; there is " + listed(names) +
                               did_you_mean(state.fluid, names));
   }
+}
+
+/// Words that a density and a temperature say the same.
+constexpr const char* two_densities = "there are a density and a temperature; give one of the two";
+
+/// A state that the fluid does not have.
+template <class State>
+void check_existence(TableReader& in, const State& state, const Case& c) {
+  if (state.density.has_value() == state.temperature.has_value() || !state.pressure || varies(state)) return;
+  const FluidConfig* fluid = find_fluid(in, c, state.fluid);
+  if (!fluid || !in.sound({"density", "temperature", "pressure"})) return;
+  const std::string why = why_not(*fluid, state.pressure->number, number_of(state.density), number_of(state.temperature));
+  if (!why.empty()) in.problem("pressure", why);
+}
+
+template <class State>
+void check_gas_state(TableReader& in, State& state, const Case& c, const Elsewhere& elsewhere = {}) {
+  check_fluid_of(in, state, c);
   if (!in.has("pressure") && elsewhere.pressure.empty()) in.problem("pressure", "missing: the pressure of the gas");
   if (in.has("pressure") && !elsewhere.pressure.empty())
     in.problem("pressure", "it follows from " + elsewhere.pressure + "; give one of the two");
-  if (!elsewhere.density.empty()) {
+  if (elsewhere.needs_density && !in.has("density"))
+    in.problem("density", fmt::format("missing: {} needs it{}", elsewhere.pressure,
+                                      in.has("temperature") ? ", instead of the temperature" : ""));
+  else if (!elsewhere.density.empty()) {
     if (state.density || state.temperature)
       in.problem(state.density ? "density" : "temperature", "the density is in " + elsewhere.density + "; give one of the two");
   } else if (state.density.has_value() == state.temperature.has_value())
-    in.problem(state.density ? "there are a density and a temperature; give one of the two"
-                             : "neither density nor temperature is given; give one of the two");
-  else if (const FluidConfig* fluid = find_fluid(in, c, state.fluid);
-           fluid && state.pressure && !varies(state) && in.sound({"density", "temperature", "pressure"}))
-    if (const std::string why = why_not(*fluid, state.pressure->number, number_of(state.density), number_of(state.temperature));
-        !why.empty())
-      in.problem("pressure", why);
+    in.problem(state.density ? two_densities : "neither density nor temperature is given; give one of the two");
+  else
+    check_existence(in, state, c);
 }
 
 /// The profile of a fill; nothing if it cannot be read.
@@ -278,9 +297,8 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
   if (fill.energy) {
     if (!elsewhere.pressure.empty()) in.problem("energy", "the pressure is in the profile; give one of the two");
     if (!in.has("shape")) in.problem("shape", "missing: the region that the energy is put into");
-    if (!fill.density) in.problem("density", "missing: an energy needs it");
     if (varies(fill)) in.problem("energy", "it is spread over one state; a formula cannot be beside it");
-    elsewhere.pressure = "the energy";
+    elsewhere.pressure = "the energy", elsewhere.needs_density = true;
   }
   if (profile && varies(fill)) in.problem("profile", "a state varies by a profile or by formulas; give one of the two");
   const std::size_t before = in.problem_count();
@@ -309,7 +327,11 @@ void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& oth
   if (side_known && taken) in.problem("side", "this side is given twice; give each once");
   if (side_known && geometry_known(in) && static_cast<std::size_t>(edge.side) / 2 >= dimensions_of(c))
     in.problem("side", fmt::format("in {} dimension{} there is no such side", c.dimensions(), c.dimensions() == 1 ? "" : "s"));
-  if (!in.sound({"kind"})) return;
+  if (!in.sound({"kind"})) {  // what is wrong whatever the kind is meant to be
+    if (in.has("fluid") || c.gas->fluids.size() == 1) check_fluid_of(in, edge, c);
+    if (edge.density && edge.temperature) in.problem(two_densities);
+    return check_existence(in, edge, c);
+  }
   // A velocity of zero says nothing: a case that a run has written holds one at every edge.
   const bool more = in.has("density") || in.has("temperature") || !is_zero(edge.velocity) || in.has("fluid");
   const std::size_t before = in.problem_count();

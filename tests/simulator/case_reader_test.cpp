@@ -464,7 +464,8 @@ INSTANTIATE_TEST_SUITE_P(
                    "gas.fill.3.shape: missing: the region that the energy is put into"},
         HostileGas{"energy = \"2 kJ\"", "energy = \"2 kJ\"\npressure = 1",
                    "gas.fill.3.pressure: it follows from the energy; give one of the two"},
-        HostileGas{"density = 1\n", "temperature = \"300 K\"\n", "gas.fill.3.density: missing: an energy needs it"},
+        HostileGas{"density = 1\n", "temperature = \"300 K\"\n",
+                   "gas.fill.3.density: missing: the energy needs it, instead of the temperature"},
         HostileGas{"side = \"high_x\"", "side = \"high_z\"", "in 2 dimensions there is no such side"},
         HostileGas{"kind = \"non_reflecting\"", "kind = \"periodic\"", "a state would be ignored"},
         HostileGas{"upper = [\"20 mm\", \"10 mm\"]", "upper = [\"20.5 mm\", \"10 mm\"]", "is on no plane of nodes"},
@@ -492,6 +493,29 @@ INSTANTIATE_TEST_SUITE_P(
         HostileGas{"kind = \"non_reflecting\"\nfluid = \"air\"\ntemperature = \"300 K\"\npressure = \"1 atm\"",
                    "kind = \"no_slip\"\ntemperature = \"300 K\"", "nothing sticks to a wall without viscosity"},
         HostileGas{"material = \"air.toml\"", "material = \"air.toml\"\nviscosity = \"1 m\"", "viscosity"}));
+
+TEST(CaseReader, AnEnergyThatNeedsADensityIsOneProblem) {
+  std::string text = gases;
+  text.erase(text.find("density = 1\n"), 12);
+  const std::string problems = problems_of(text);
+  EXPECT_TRUE(contains(problems, "gas.fill.3.density: missing: the energy needs it")) << problems;
+  EXPECT_EQ(std::count(problems.begin(), problems.end(), '\n'), 0) << problems;
+}
+
+/// What is wrong with an edge whatever its kind is meant to be is told beside its unknown kind.
+TEST(CaseReader, AnEdgeOfAnUnknownKindDoesNotHideItsOtherMistakes) {
+  std::string text = gases;
+  const std::string kind = "kind = \"non_reflecting\"\nfluid = \"air\"\n";
+  text.replace(text.find(kind), kind.size(), "kind = \"inflw\"\nfluid = \"aire\"\ndensity = 1\n");
+  const std::string problems = problems_of(text);
+  EXPECT_TRUE(contains(problems, "gas.edge.0.kind: \"inflw\" is unknown")) << problems;
+  EXPECT_TRUE(contains(problems, "gas.edge.0.fluid: there is no fluid \"aire\"")) << problems;
+  EXPECT_TRUE(contains(problems, "gas.edge.0: there are a density and a temperature")) << problems;
+  text.replace(text.find("aire"), 4, "air");
+  text.erase(text.find("density = 1\ntemp"), 12);
+  text.replace(text.find("pressure = \"1 atm\"", text.find("inflw")), 18, "pressure = -1     ");
+  EXPECT_TRUE(contains(problems_of(text), "gas.edge.0.pressure: ")) << problems_of(text);
+}
 
 TEST(CaseReader, AWrittenCaseReadsBackToTheSame) {
   for (const std::string& text : {bar, everything, burning, bodies_in_gas}) {
