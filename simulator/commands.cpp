@@ -237,7 +237,10 @@ int describe_keys(const std::string& key) {
     return bad_input;
   }
   if (thing) fmt::print("{}", *thing);
-  for (const KeyDescription& k : found) fmt::print("{}", page_of(k));
+  for (const KeyDescription& k : found) {
+    fmt::print("{}", page_of(k));
+    if (k.path == "gas.edge.kind") fmt::print("{}", describe_edges());
+  }
   if (laws) fmt::print("{}{}", found.empty() ? "" : "\n", *laws);
   return done;
 }

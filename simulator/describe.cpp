@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "models/input/material_folders.hpp"
 #include "models/input/material_reader.hpp"
 #include "models/input/table_reader.hpp"
+#include "simulator/config.hpp"
 #include "simulator/formula.hpp"
 #include "simulator/keys.hpp"
 
@@ -28,6 +30,15 @@ constexpr std::pair<std::string_view, std::string_view> examples[] = {
                      R"({ box = { lower = [0, 0], upper = ["5 mm", "5 mm"] } }] })"},
     {"difference", R"({ difference = { from = { box = { lower = [0, 0], upper = ["10 mm", "10 mm"] } }, )"
                    R"(without = [{ sphere = { centre = [0, "10 mm"], radius = "6 mm" } }] } })"}};
+
+/// The keys that each kind of edge takes, in the order of EdgeKind.
+constexpr std::array<std::string_view, choices<EdgeKind>.size()> keys_of_edges = {
+    "no other",
+    "pressure, and density or temperature; velocity, 0 if not given; fluid, the only one if not given",
+    "pressure alone",
+    "as inflow",
+    "no other; the opposite side is periodic, too",
+    "velocity along itself, 0 if not given; temperature, if heat shall pass; a fluid needs a viscosity, or conductivity"};
 
 /// The laws that a material file names, "folder/law".
 std::vector<std::string> laws_in(const std::filesystem::path& file) {
@@ -70,6 +81,13 @@ std::optional<std::string> describe_shape(std::string_view form) {
                     "  example: shape = {}\n  in three dimensions every point has three coordinates; in the axisymmetric "
                     "geometry x is the radius\n",
                     example_of_shape(form));
+}
+
+std::string describe_edges() {
+  std::string text = "kinds of [[gas.edge]], and the keys that each takes beside side and kind\n";
+  for (std::size_t kind = 0; kind < keys_of_edges.size(); ++kind)
+    text += fmt::format("  {:16} {}\n", choices<EdgeKind>[kind], keys_of_edges[kind]);
+  return text;
 }
 
 std::optional<std::string> describe_formula(std::string_view name) {

@@ -1,5 +1,5 @@
 #pragma once
-// What `brisance describe` tells of shapes and of the materials that come with the program.
+// What `brisance describe` tells of shapes, of the edges of gas and of the materials that come with the program.
 
 #include <optional>
 #include <string>
@@ -13,6 +13,9 @@ std::string_view example_of_shape(std::string_view form);
 
 /// A form of shapes: its keys and an example. Nothing if there is no such form.
 std::optional<std::string> describe_shape(std::string_view form);
+
+/// The keys that each kind of edge of the gas takes.
+std::string describe_edges();
 
 /// What formulas may speak of, where they may stand, examples; for "formula".
 std::optional<std::string> describe_formula(std::string_view name);

@@ -422,6 +422,27 @@ TEST(DescribeCommand, ExplainsShapesByExamplesThatCanBeRead) {
 }
 
 /// Everything that it names can be used: a formula of all functions and variables is one.
+/// Each kind of edge with the keys that are said to be needed can be read, and `pressure` refuses more.
+TEST(DescribeCommand, TellsWhichKeysEachKindOfEdgeTakes) {
+  for (const char* asked : {"gas.edge", "gas.edge.kind", "non_reflecting"}) {
+    const std::string out = call({"describe", asked}).out;
+    for (const char* line :
+         {"  inflow           pressure, and density or temperature; velocity", "  pressure         pressure alone"})
+      EXPECT_TRUE(contains(out, line)) << asked << "\n" << out;
+  }
+  const auto problems_with = [](const std::string& kind, const std::string& state) {
+    const std::string edge = "[[gas.edge]]\nside = \"high_x\"\nkind = \"" + kind + "\"\n" + state;
+    return call({"check",
+                 write_text(scratch() / "box.toml", box_of_air("10 mm", "20 us", "[0, 0]", "[0.2, 0.05]") + edge).string()})
+        .err;
+  };
+  EXPECT_EQ(problems_with("wall", ""), "");
+  EXPECT_EQ(problems_with("inflow", "pressure = 1e5\ntemperature = 300\n"), "");
+  EXPECT_EQ(problems_with("non_reflecting", "pressure = 1e5\ndensity = 1.2\n"), "");
+  EXPECT_EQ(problems_with("pressure", "pressure = 1e5\n"), "");
+  EXPECT_NE(problems_with("pressure", "pressure = 1e5\ntemperature = 300\n"), "");
+}
+
 TEST(DescribeCommand, ExplainsFormulas) {
   const Answer a = call({"describe", "formula"});
   EXPECT_EQ(a.code, done) << a.err;
