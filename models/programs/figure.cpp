@@ -45,6 +45,10 @@ std::string style_of(const Curve& curve) {
   const std::string_view colour = palette[static_cast<std::size_t>(curve.colour) % palette.size()];
   if (!curve.half_widths.empty()) return "using 1:2:4:5:3 with boxxyerror fs solid noborder lc palette";
   if (!curve.values.empty()) return fmt::format("using 1:2:3 with points pt 7 ps {} lc palette", curve.size);
+  constexpr double period = 28.0;  // of dashes
+  if (curve.drawn > 0.0 && curve.drawn < 1.0)
+    return fmt::format("using 1:2 with lines lw 2 dt ({:.3g},{:.3g}) lc rgb '{}'", period * curve.drawn,
+                       period * (1.0 - curve.drawn), colour);
   switch (curve.mark) {
     case Mark::line:
       return fmt::format("using 1:2 with lines lw 2 lc rgb '{}'", colour);

@@ -25,6 +25,7 @@ struct Curve {
   std::vector<double> values{};                       // of points, or of polygons: shown by colours on a scale instead
   double size = 0.7;                                  // of points
   std::vector<double> half_widths{}, half_heights{};  // of tiles with values instead of points, in units of the axes
+  double drawn = 0.0;                                 // part of a line that its dashes cover; 0: as the mark says
 };
 
 struct Panel {

@@ -114,6 +114,28 @@ bool is_mirrored(const Simulation& s, int axis) {
                      [&](const Boundary& b) { return b.kind == BoundaryKind::symmetry && b.axis == axis && b.node == 0; });
 }
 
+/// Whether two curves at the same places lie on each other for a good part of their way, not counting the axis.
+bool cover(const Curve& a, const Curve& b, double most) {
+  constexpr double width_of_line = 0.005, good_part = 0.2;  // of the height and length of the panel
+  if (a.y.size() != b.y.size()) return false;
+  std::size_t common = 0;
+  for (std::size_t i = 0; i < a.y.size(); ++i)
+    common += std::abs(a.y[i]) > width_of_line * most && std::abs(a.y[i] - b.y[i]) < width_of_line * most;
+  return static_cast<double>(common) > good_part * static_cast<double>(a.y.size());
+}
+
+/// Curves that lie on each other take turns along the line: each later one leaves a part of it to those below.
+void let_all_be_seen(std::vector<Curve>& curves) {
+  double most = 0.0;
+  for (const Curve& curve : curves) most = std::max(most, largest(curve.y));
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    double below = 0.0, together = 1.0;
+    for (std::size_t other = 0; other < curves.size(); ++other)
+      if (other != k && cover(curves[k], curves[other], most)) together += 1.0, below += other < k ? 1.0 : 0.0;
+    if (below > 0.0) curves[k].drawn = 1.0 - below / together;
+  }
+}
+
 /// Curves of a quantity against time. Those that would lie on the axis, and what is below `noise`, are not drawn; the title
 /// tells the largest values of the largest of them, unless they are zero all the time.
 Panel against_time(const std::string& title, std::string_view quantity, const std::vector<double>& time,
@@ -134,6 +156,7 @@ Panel against_time(const std::string& title, std::string_view quantity, const st
     curve.x = scaled(time, times.per_si), curve.y = scaled(std::move(curve.y), scale.per_si);
     panel.curves.push_back(std::move(curve));
   }
+  let_all_be_seen(panel.curves);
   if (panel.curves.empty() && !curves.empty())  // nothing happens
     panel.curves.push_back({curves.back().title, scaled(time, times.per_si), std::vector<double>(time.size(), 0.0)});
   constexpr std::size_t most_told = 2;
@@ -166,18 +189,16 @@ void colour_in_order(Panel& panel) {
 void draw_energy(const Case& c, const Path& directory) {
   const CsvFile history = CsvFile::load(directory / "history.csv");
   const Unit unit = unit_of(Extensive::energy, c.geometry);
-  const auto curve = [&](const std::string& column, const std::string& title, int colour, Mark mark = Mark::line) {
-    return Curve{title, {}, history.numbers(column, unit), mark, colour};
+  const auto curve = [&](const std::string& column, const std::string& title, int colour) {
+    return Curve{title, {}, history.numbers(column, unit), Mark::line, colour};
   };
   const std::vector<double> time = history.numbers("time", Unit::s);
-  // The internal energy often equals what it is made of: it is dashed, so that both are seen.
-  Panel physical = against_time(
-      "Energy", "energy", time,
-      {curve("kinetic_energy", "kinetic", 0), curve("plastic_work", "plastic work", 2),
-       curve("external_work", "work of loads", 3), curve("boundary_work", "work of boundaries", 4),
-       curve("friction_work", "friction", 6), curve("viscous_work", "artificial viscosity", 5),
-       curve("outflow_energy", "outflow", 7), curve("internal_energy_change", "internal, change", 1, Mark::dashed)},
-      unit);
+  Panel physical = against_time("Energy", "energy", time,
+                                {curve("kinetic_energy", "kinetic", 0), curve("plastic_work", "plastic work", 2),
+                                 curve("external_work", "work of loads", 3), curve("boundary_work", "work of boundaries", 4),
+                                 curve("friction_work", "friction", 6), curve("viscous_work", "artificial viscosity", 5),
+                                 curve("outflow_energy", "outflow", 7), curve("internal_energy_change", "internal, change", 1)},
+                                unit);
   Panel numerical = against_time("Numerical books", "energy", time,
                                  {curve("transfer_energy", "transfer", 0), curve("filter_energy", "filter", 1),
                                   curve("filter_heat", "heat of the filter", 3),
@@ -206,8 +227,7 @@ void draw_gas_energy(const Case& c, const Simulation& s, const Path& directory) 
   for (const gas::MovingBody& body : s.gas.bodies.all) add("work of " + body.name, body.name + "_work", -1.0);
   if (s.gas.gravity != Vector{}) add("work of gravity", "gravity_energy");
   add("in no book", "gas_residual_energy");
-  // It often equals one of what it is made of: it is dashed, so that both are seen.
-  curves.push_back({"total, change", {}, std::move(change), Mark::dashed});
+  curves.push_back({"total, change", {}, std::move(change)});
   Panel panel = against_time("Energy of the gas", "energy", time, std::move(curves), unit, noise);
   colour_in_order(panel);
   draw(c, {c.title, {std::move(panel)}, 1, 900, 380}, directory / "energy.png");
@@ -301,6 +321,7 @@ void draw_gauges(const Case& c, const Path& directory) {
     for (const GaugeSeries* s : shown)
       panel.curves.push_back(
           {in_words(s->label), scaled(s->time, times.per_si), scaled(s->value, scale.per_si), Mark::line, colour++});
+    let_all_be_seen(panel.curves);
     figure.panels.push_back(std::move(panel));
   }
   draw(c, std::move(figure), directory / "gauges.png");

@@ -12,6 +12,7 @@
 #include "simulator/setup.hpp"
 #include "tests/command_line.hpp"
 #include "tests/simulator/gas/bodies_set_up.hpp"
+#include "tests/simulator/small_bar.hpp"
 #include "tests/simulator/told_to_gnuplot.hpp"
 
 namespace brisance::simulator {
@@ -158,6 +159,27 @@ TEST(PicturesOfAFailedRun, ShowWhatMostCellsHoldAndSayThatAFewDoNot) {
   EXPECT_TRUE(contains(failed, "run failed: 1 of 800 values beyond; all from 1.01 Pa to 1e+21 GPa")) << failed.substr(0, 3000);
   const std::size_t line = failed.find("set yrange [1.0");
   EXPECT_NE(line, std::string::npos) << "of the line through the cell";
+}
+
+/// The same leaves through each of four sides: all four lines are to be seen, a quarter of the way each.
+TEST(PicturesOfEnergy, ShowLinesThatLieOnEachOther) {
+  const fs::path directory = scratch();
+  std::string text = box_of_air("50 mm", "0.5 ms", "[0, 0]", "[1, 1]");
+  for (const char* side : {"low_x", "high_x", "low_y", "high_y"})
+    text += std::string("[[gas.edge]]\nside = \"") + side + "\"\nkind = \"pressure\"\npressure = \"0.5 atm\"\n";
+  const Case c = read_case(write_text(directory / "box.toml", text), {"output.figures=false"});
+  Simulation s = set_up(c);
+  ASSERT_EQ(run(c, s, {directory, {}}).ending, Ending::done);
+  const std::string told = told_to_gnuplot(c, s, directory);
+  const auto style_of = [&](const std::string& title) {
+    const std::size_t at = told.find("title \"" + title + '"'), begin = told.rfind("lines", at);
+    return told.substr(begin, told.find(" lc", begin) - begin);
+  };
+  EXPECT_EQ(style_of("through low\\\\_x"), "lines lw 2");
+  EXPECT_EQ(style_of("through high\\\\_x"), "lines lw 2 dt (21,7)");
+  EXPECT_EQ(style_of("through low\\\\_y"), "lines lw 2 dt (14,14)");
+  EXPECT_EQ(style_of("through high\\\\_y"), "lines lw 2 dt (7,21)");
+  EXPECT_EQ(style_of("total, change"), "lines lw 2") << "on no other";
 }
 
 TEST(PicturesAboutAnAxis, NameTheCoordinatesAsTheCaseFileDoes) {
