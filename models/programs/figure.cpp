@@ -244,8 +244,12 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
       std::clamp(width / (width_of_letter * static_cast<double>(figure.title.size())), smallest_font, largest_font);
   constexpr double subtitle_font = 10.0;
   const auto most_letters = static_cast<std::size_t>(width / (width_of_letter * subtitle_font));
-  const std::string subtitle =
-      figure.subtitle.size() > most_letters ? figure.subtitle.substr(0, most_letters - 3) + "..." : figure.subtitle;
+  std::string subtitle = figure.subtitle;
+  if (subtitle.size() > most_letters) {
+    std::size_t end = most_letters - 3;
+    while (end > 0 && (static_cast<unsigned char>(subtitle[end]) & 0xc0) == 0x80) --end;  // not within a letter of UTF-8
+    subtitle = subtitle.substr(0, end) + "...";
+  }
   const double height = std::ceil(std::accumulate(row_heights.begin(), row_heights.end(), 0.0) + title_height);
   replace_file(path, [&](const std::filesystem::path& temporary) {
     {
