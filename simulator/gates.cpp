@@ -81,7 +81,7 @@ void check_gates(const GateConfig& limits, const Simulation& s, const Books& boo
     if (value <= limit) return;
     const std::string_view unit = unit_of(quantity, s.geometry).text;
     throw GateExceeded(fmt::format(
-        "gate {}: {} is {:.6g} {}, {:.6g} {} at most is allowed; step {}, time {:.6g} s. The results up to the row of "
+        "gate {}: {} is {:.6g} {}, {:.6g} {} at most is allowed; step {}, time {:.6g} s\nthe results up to the row of "
         "history.csv before this one met the limit, this one does not: it has gone wrong in between",
         gate, what, value, unit, limit, unit, s.step, s.time));
   };

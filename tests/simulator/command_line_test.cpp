@@ -151,6 +151,7 @@ TEST(RunCommand, BooksThatDoNotCloseEndTheRunWithAReport) {
   const Answer report = call({"report", run});
   EXPECT_EQ(report.code, failed_while_running);
   EXPECT_TRUE(report.err.starts_with("this run failed at 5")) << report.err;
+  EXPECT_TRUE(contains(report.err, " s\nthe results up to the row")) << "a line of its own: " << report.err;
   EXPECT_TRUE(contains(report.err, a.err.substr(0, a.err.find("\npictures of")))) << report.err;
   EXPECT_TRUE(report.out.starts_with("Small bar: failed, as of checkpoint_")) << report.out;
 }
