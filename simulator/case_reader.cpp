@@ -651,8 +651,8 @@ Case read_case(const Path& file, const std::vector<std::string>& overrides) {
   TableReader top = input.top();
   Case result = CaseReader().read(top);
   result.file = file;
-  if (!overrides.empty())
-    result.subtitle += fmt::format("{}{}", result.subtitle.empty() ? "with " : ", ", fmt::join(overrides, ", "));
+  for (const std::string& assignment : overrides)
+    if (!assignment.starts_with("title=")) result.subtitle += (result.subtitle.empty() ? "with " : ", ") + assignment;
   std::vector<Problem> problems = input.problems();
   place_in_file(problems, changes, file);
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -44,12 +44,12 @@ TEST(RunCommand, NamesWhatWasSet) {
   const fs::path directory = scratch();
   const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
                     run = (directory / "run").string(), said = "with end_time=0.2 us, numerics.courant=0.3";
-  const std::vector<std::string> set = {"--set", "end_time=0.2 us", "--set", "numerics.courant=0.3"};
+  const std::vector<std::string> set = {"--set", "end_time=0.2 us", "--set", "title=Bar", "--set", "numerics.courant=0.3"};
   std::vector<std::string> words = {"run", file, "-o", run};
   words.insert(words.end(), set.begin(), set.end());
-  EXPECT_TRUE(contains(call(words).out, "Small bar: done\n  " + said + '\n'));
+  EXPECT_TRUE(contains(call(words).out, "Bar: done\n  " + said + '\n'));
   EXPECT_TRUE(contains(text_of(directory / "run" / "summary.json"), "\"subtitle\": \"" + said + '"'));
-  EXPECT_TRUE(contains(text_of(directory / "run" / "log.txt"), "Small bar, " + said));
+  EXPECT_TRUE(contains(text_of(directory / "run" / "log.txt"), "Bar, " + said));
   EXPECT_TRUE(contains(call({"report", run}).out, said));
   EXPECT_FALSE(contains(call({"check", file}).out, "Small bar\n  with "));
 }
