@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "models/requests.hpp"
 #include "models/state.hpp"
 
 namespace brisance {
@@ -53,9 +54,25 @@ struct Batch {
   std::array<Point<Real>, capacity> points;
   int size = capacity;  // packs in use
   double time = 0.0;    // s, at the end of the step
+  Requests ahead;       // of the caller, for what it reads after the update; sent on the way from point to point
 
-  Point<Real>* begin() { return points.data(); }
-  Point<Real>* end() { return points.data() + size; }
+  class Iterator {
+   public:
+    Iterator(Point<Real>* at, Requests& ahead) : at_(at), ahead_(ahead) {}
+    Point<Real>& operator*() const { return *at_; }
+    bool operator!=(const Iterator& other) const { return at_ != other.at_; }
+    [[gnu::always_inline]] Iterator& operator++() {
+      constexpr int lines = 5;  // an update passes each of its points some 15 times, and a point is some 43 lines of columns
+      ++at_, ahead_.send(lines);
+      return *this;
+    }
+
+   private:
+    Point<Real>* at_;
+    Requests& ahead_;
+  };
+  Iterator begin() { return {points.data(), ahead}; }
+  Iterator end() { return {points.data() + size, ahead}; }
   const Point<Real>* begin() const { return points.data(); }
   const Point<Real>* end() const { return points.data() + size; }
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "models/requests.hpp"
 #include "simulator/solid/bins.hpp"
 #include "simulator/solid/packs.hpp"
 
@@ -61,25 +62,30 @@ struct Wanted {
   int first, count;
 };
 
-/// Asks the memory for columns of the particle at a place of the bins' order. As a rule it is the last of eight neighbours in
-/// memory, of which the others are in the same pack or in the one before, which the eight before have asked for. Inlined, or
-/// GCC takes what does nothing else for a function without effect, and leaves it out.
-[[gnu::always_inline]] inline void fetch(const Bins& bins, std::size_t place, std::initializer_list<Wanted> wanted) {
-  if (place >= bins.order.size()) return;
-  for (const Wanted& w : wanted) {
-    const double* from = w.set.particle(static_cast<int>(bins.order[place])) + w.first * chunk_size;
-    for (int k = 0; k < w.count; ++k) __builtin_prefetch(from + k * chunk_size);
-  }
+/// Requests for columns of the particle at a place of the bins' order. As a rule it is the last of eight neighbours in memory,
+/// of which the others are in the same pack or in the one before, which the eight before have asked for.
+inline Requests requests_for(const Bins& bins, std::size_t place, std::initializer_list<Wanted> wanted) {
+  Requests requests;
+  if (place < bins.order.size())
+    for (const Wanted& w : wanted)
+      requests.add(w.set.particle(static_cast<int>(bins.order[place])) + w.first * chunk_size, w.count);
+  return requests;
 }
 
-/// Calls f(eight) for the particles of a bin. What is wanted of those after the next eight is on its way from memory meanwhile.
+/// Calls f(eight) for the particles of a bin.
 template <class F>
-void for_each_eight(const Bins& bins, const Bin& bin, std::initializer_list<Wanted> wanted, F&& f) {
+void for_each_eight(const Bins& bins, const Bin& bin, F&& f) {
+  for (std::uint32_t first = bin.begin; first < bin.end; first += 8) f(Eight(bins, first, bin.end));
+}
+/// Calls f(eight, requests), which sends the requests: for what is wanted of the particles `distance` places further on.
+template <class F>
+void for_each_eight(const Bins& bins, const Bin& bin, std::uint32_t distance, std::initializer_list<Wanted> wanted, F&& f) {
   for (std::uint32_t first = bin.begin; first < bin.end; first += 8) {
-    fetch(bins, first + 16 + 7, wanted);
-    f(Eight(bins, first, bin.end));
+    Requests requests = requests_for(bins, first + distance + 7, wanted);
+    f(Eight(bins, first, bin.end), requests);
   }
 }
+inline constexpr std::uint32_t after_the_next_eight = 16;
 
 /// D columns from the first on.
 template <std::size_t D>

@@ -12,6 +12,7 @@
 #include "models/material.hpp"
 #include "models/parameters.hpp"
 #include "simulator/grid/morton.hpp"
+#include "simulator/solid/packs.hpp"
 
 namespace brisance::simulator {
 
@@ -27,11 +28,13 @@ class ColumnSet {
   /// New elements, and those that pad the last chunk, are zero.
   void resize(int particles) {
     const std::size_t chunks = (static_cast<std::size_t>(particles) + chunk_size - 1) / chunk_size;
-    data_.resize(chunks * static_cast<std::size_t>(columns_ * chunk_size), 0.0);
+    data_.resize(chunks * static_cast<std::size_t>(columns_));
   }
   /// Where column 0 of a particle stands, counted from chunk 0.
   std::int64_t offset(std::uint32_t p) const { return std::int64_t{p / chunk_size} * (columns_ * chunk_size) + p % chunk_size; }
-  double* chunk(int c) { return data_.data() + static_cast<std::size_t>(c) * static_cast<std::size_t>(columns_ * chunk_size); }
+  double* chunk(int c) {
+    return reinterpret_cast<double*>(data_.data() + static_cast<std::size_t>(c) * static_cast<std::size_t>(columns_));
+  }
   const double* chunk(int c) const { return const_cast<ColumnSet*>(this)->chunk(c); }
   /// Column 0 of a particle; its column k is k * chunk_size further on.
   double* particle(int p) { return chunk(p / chunk_size) + p % chunk_size; }
@@ -40,11 +43,11 @@ class ColumnSet {
   double at(int column, int p) const { return particle(p)[column * chunk_size]; }
   /// Particle i of the new order is particle order[i] of the old.
   void reorder(std::span<const std::uint32_t> order);
-  std::size_t bytes() const { return data_.capacity() * sizeof(double); }
+  std::size_t bytes() const { return data_.capacity() * sizeof(StoredPack); }
 
  private:
   int columns_ = 0;
-  std::vector<double> data_;
+  std::vector<StoredPack> data_;  // [chunk][column]
 };
 
 /// Where the columns stand in their sets, in D dimensions. In two dimensions the third direction keeps only its diagonal

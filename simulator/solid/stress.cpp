@@ -95,11 +95,15 @@ void read_point(const Particles& ps, int chunk, double cell_size, Pack& p) {
   p.state.strength = ps.has_strength ? read(rest, ps.strength()) : Lanes(1.0);
 }
 
-/// Asks the memory for what read_point reads of a chunk. Inlined, or GCC takes it for a function without effect.
-[[gnu::always_inline]] inline void fetch_point(const Particles& ps, int chunk) {
-  if (chunk >= ps.chunks()) return;
+/// What the update of some chunks reads.
+template <int D>
+Requests requests_for(const Particles& ps, const ColumnSet& velocities, int first, int end) {
+  Requests requests;
+  if (first >= end) return requests;
   for (const ColumnSet* set : {&ps.gradient, &ps.load, &ps.rest, &ps.filter_heat})
-    for (int k = 0; k < set->columns(); ++k) __builtin_prefetch(set->chunk(chunk) + k * chunk_size);
+    requests.add(set->chunk(first), (end - first) * set->columns());
+  for (int c = first; c < end; ++c) requests.add(velocities.chunk(c) + Layout<D>::Motion::velocity * chunk_size, D);
+  return requests;
 }
 
 template <int D>
@@ -262,10 +266,10 @@ void advance_batch(const Simulation& s, Body& body, int first_chunk, int chunks,
                    Batch<Lanes>& batch, LaneExtremes& extremes, Failing& failing) {
   Particles& ps = body.particles;
   batch.size = chunks, batch.time = s.time + dt;
-  for (int c = 0; c < chunks; ++c) {
+  for (int c = 0; c < chunks; ++c)
     read_point<D>(ps, first_chunk + c, s.grid.cell_size, batch.points[static_cast<std::size_t>(c)]);
-    fetch_point(ps, first_chunk + chunks + c);  // of the next batch
-  }
+  const int next = first_chunk + chunks;
+  batch.ahead = requests_for<D>(ps, velocities, next, std::min(next + chunks, ps.chunks()));
   update(body.material, batch, dt);
   for (int c = 0; c < chunks; ++c) {
     Pack& p = batch.points[static_cast<std::size_t>(c)];

@@ -105,19 +105,19 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
     CellMeans<D> pressures;
     if (external) pressures = cell_pressures<D>(s.grid, body, bin, tile.position);
     for_each_eight(
-        body.bins, bin,
+        body.bins, bin, after_the_next_eight,
         {{ps.motion, L::Motion::position, 2 * D},
          {ps.load, L::Load::mass, 1},
          {ps.load, L::Load::half_width, 1},
          {ps.next_motion, 0, L::Motion::count},
          {ps.filter_heat, 0, 1}},
-        [&](const Eight& eight) {
+        [&](const Eight& eight, Requests& requests) {
           const Columns from(ps.motion, eight), load(ps.load, eight);
           Columns to(ps.next_motion, eight);
           const Vec x = read_vector<D>(from, L::Motion::position), v = read_vector<D>(from, L::Motion::velocity);
           const Lanes m = load[L::Load::mass];
           Weights<D> w = find_weights<G, basis>(on_grid(s.grid, x), load[L::Load::half_width], tile.position, h);
-          const GatheredByChannel<D> grid = gather<Slope::lever, false>(w, nodes_of<D>(body, eight, motion.data()));
+          const GatheredByChannel<D> grid = gather<Slope::lever, false>(w, nodes_of<D>(body, eight, motion.data()), requests);
 
           Vec v_new, x_new;
           Vec by_grid, by_filter, in_all, mean_by_grid, mean_by_filter, mean_in_all,
@@ -168,7 +168,7 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
               mean[a] = Lanes(grid.value[Channel::velocity + a]) - 0.5 * Lanes(grid.value[Channel::change + a]);
             }
             field_forces.add(impulse, x, mean);
-            const auto slopes = gather<Slope::gradient, ring>(w, nodes_of<D>(body, eight, motion.data()));
+            const auto slopes = gather<Slope::gradient, ring>(w, nodes_of<D>(body, eight, motion.data()), requests);
             internal -= step.dt_velocity * booked / load[L::Load::density] *
                         stress_power<G>(pushing_stress<D>(body, load, pressures, w), slopes);
           }
@@ -188,14 +188,15 @@ void from_tile(Simulation& s, const TileView& tile, const ParticleStep& step, Pa
                 for (std::size_t k = 0; k < 3; ++k) slope[a][k] = Lanes(w.along[a].lever[k][i]) * affine_momentum[a][i];
               return slope;
             };
-            scatter<D>(w, static_cast<std::size_t>(eight.used), momentum, slopes, nodes);
+            scatter<D>(w, static_cast<std::size_t>(eight.used), momentum, slopes, nodes, requests);
           }
           list_leavers<D>(s, origin_later, eight, x_new, tile.position, moved[number], left[number]);
         });
     if (external)
       for_each_load<G, basis>(
           s, body, bin, tile.position, [&](const LoadedPoint& point, const Weights<D>& w, const Eight& one) {
-            const auto value = gather<Slope::gradient, false>(w, nodes_of<D>(body, one, motion.data())).value;
+            Requests none;
+            const auto value = gather<Slope::gradient, false>(w, nodes_of<D>(body, one, motion.data()), none).value;
             Vector mean{};
             for (int a = 0; a < D; ++a)
               mean[static_cast<std::size_t>(a)] = value[Channel::velocity + a][0] - 0.5 * value[Channel::change + a][0];

@@ -21,15 +21,12 @@ CellMeans<D> cell_pressures(const Grid& grid, const Body& body, const Bin& bin, 
   using L = Layout<D>;
   CellMeans<D> means;
   if (!body.locking_cure) return means;
-  for_each_eight(body.bins, bin,
-                 {{body.particles.motion, L::Motion::position, D}, {body.particles.load, 0, L::Load::half_width}},
-                 [&](const Eight& eight) {
-                   const Columns motion(body.particles.motion, eight), load(body.particles.load, eight);
-                   const Lanes pressure = load[L::Load::artificial_viscosity] - trace(read_stress<D>(load)) / 3.0;
-                   const auto nearest =
-                       nearest_in_block(on_grid(grid, read_vector<D>(motion, L::Motion::position)), block, grid.cell_size);
-                   means.add(eight, CellMeans<D>::cells(nearest), load[L::Load::mass] / load[L::Load::density], pressure);
-                 });
+  for_each_eight(body.bins, bin, [&](const Eight& eight) {
+    const Columns motion(body.particles.motion, eight), load(body.particles.load, eight);
+    const Lanes pressure = load[L::Load::artificial_viscosity] - trace(read_stress<D>(load)) / 3.0;
+    const auto nearest = nearest_in_block(on_grid(grid, read_vector<D>(motion, L::Motion::position)), block, grid.cell_size);
+    means.add(eight, CellMeans<D>::cells(nearest), load[L::Load::mass] / load[L::Load::density], pressure);
+  });
   return means;
 }
 

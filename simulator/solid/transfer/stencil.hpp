@@ -1,6 +1,7 @@
 #pragma once
 // The inner operations of the transfers: between one particle and the nodes of its stencil, eight channels side by side.
 
+#include "models/requests.hpp"
 #include "simulator/solid/basis.hpp"
 
 namespace brisance::simulator {
@@ -16,6 +17,9 @@ struct TwoFields {
   std::uint32_t second;  // bit n: node n of the stencil (27 or 9 nodes, x fastest)
   Lanes* at(int n) const { return first + ((second >> n) & 1u) * to_second; }
 };
+
+/// Of what the next particles need, with each particle.
+inline constexpr int requests_at_once = 3;
 
 /// What varies along direction a, at the three nodes, and carries S along the others: [a][node].
 template <std::size_t D>
@@ -60,14 +64,16 @@ template <std::size_t D, std::size_t count, class Field>
 /// Adds what eight particles carry to the nodes around those in use: value[p] S + sum_a slope_of(p)[a]_i.
 template <std::size_t D, class SlopeOf, class FieldOf>
 [[gnu::always_inline]] inline void scatter(const Weights<D>& w, std::size_t used, const Square& value, const SlopeOf& slope_of,
-                                           const FieldOf& field_of) {
+                                           const FieldOf& field_of, Requests& requests) {
   for (std::size_t p = 0; p < used; ++p) {
+    requests.send(requests_at_once);
     const TwoFields to = field_of(p);
     if (to.second != 0) {
       scatter_to<D, 1>(w, p, value, {slope_of(p)}, to);
     } else if (p + 1 < used && w.corner[p] == w.corner[p + 1] && field_of(p + 1).second == 0) {
       scatter_to<D, 2>(w, p, value, {slope_of(p), slope_of(p + 1)}, OneField{to.first});  // nodes are read and written once
       ++p;
+      requests.send(requests_at_once);
     } else {
       scatter_to<D, 1>(w, p, value, {slope_of(p)}, OneField{to.first});
     }
@@ -125,9 +131,10 @@ struct GatheredByChannel {
   Square hoop;
 };
 template <Slope kind, bool hoop, std::size_t D, class FieldOf>
-[[gnu::always_inline]] inline GatheredByChannel<D> gather(const Weights<D>& w, const FieldOf& field_of) {
+[[gnu::always_inline]] inline GatheredByChannel<D> gather(const Weights<D>& w, const FieldOf& field_of, Requests& requests) {
   GatheredByChannel<D> sums;
   for (std::size_t p = 0; p < 8; ++p) {
+    requests.send(requests_at_once);
     const TwoFields from = field_of(p);
     const Gathered<D> sum =
         from.second == 0 ? gather_from<kind, hoop, D>(w, p, OneField{from.first}) : gather_from<kind, hoop, D>(w, p, from);
@@ -181,9 +188,10 @@ template <std::size_t D>
 class VelocityGradients {
  public:
   template <bool hoop, class FieldOf>
-  [[gnu::always_inline]] static VelocityGradients gather(const Weights<D>& w, const FieldOf& field_of) {
+  [[gnu::always_inline]] static VelocityGradients gather(const Weights<D>& w, const FieldOf& field_of, Requests& requests) {
     VelocityGradients of;
     for (std::size_t p = 0; p < 8; ++p) {
+      requests.send(requests_at_once);
       const TwoFields from = field_of(p);
       const HalfGradients sum = from.second == 0 ? gather_gradients_from<hoop, D>(w, p, OneField{from.first})
                                                  : gather_gradients_from<hoop, D>(w, p, from);

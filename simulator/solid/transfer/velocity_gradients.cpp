@@ -28,16 +28,17 @@ double gradients(Simulation& s, const TileView& tile, double later) {
     Particles& ps = body.particles;
     CellMeans<D> rates;
     found.clear(), found.reserve((bin.end - bin.begin + 7) / 8);
-    for_each_eight(body.bins, bin,
+    for_each_eight(body.bins, bin, after_the_next_eight,
                    {{ps.motion, L::Motion::position, D},
                     {ps.load, L::Load::mass, 2},
                     {ps.load, L::Load::half_width, 1},
                     {ps.gradient, 0, L::tensor_components}},
-                   [&](const Eight& eight) {
+                   [&](const Eight& eight, Requests& requests) {
                      const Columns load(ps.load, eight);
                      const auto x = on_grid(s.grid, read_vector<D>(Columns(ps.motion, eight), L::Motion::position));
                      const Weights<D> w = find_weights<G, basis>(x, load[L::Load::half_width], tile.position, h);
-                     const auto grid = VelocityGradients<D>::template gather<ring>(w, nodes_of<D>(body, eight, motion.data()));
+                     const auto grid =
+                         VelocityGradients<D>::template gather<ring>(w, nodes_of<D>(body, eight, motion.data()), requests);
                      OfEight& of = found.emplace_back();
                      of.cells = CellMeans<D>::cells(w.nearest);
                      for (std::size_t a = 0; a < D; ++a)
@@ -48,7 +49,7 @@ double gradients(Simulation& s, const TileView& tile, double later) {
                        rates.add(eight, of.cells, load[L::Load::mass] / load[L::Load::density], trace_of(of.gradient));
                    });
     const OfEight* of = found.data();
-    for_each_eight(body.bins, bin, {}, [&](const Eight& eight) {
+    for_each_eight(body.bins, bin, [&](const Eight& eight) {
       Gradient l = of->gradient;
       if (body.locking_cure) {
         const Lanes correction = (rates(of->cells) - trace_of(l)) / 3.0;
