@@ -273,7 +273,7 @@ TEST(WoodwardColella, BlastsCollideAsOnAFineGrid) {
     if (cells == 800) {
       EXPECT_NEAR(peak / reference_peak, 1.0, 0.05);
     }
-    RecordProperty("peak_" + std::to_string(cells), std::to_string(peak));
+    RecordProperty("peak_" + std::to_string(cells), std::to_string(peak) + " of " + std::to_string(reference_peak));
     RecordProperty("density_" + std::to_string(cells), std::to_string(found.back()));
   }
   // Contacts, which converge with order 2/3, make up most of this flow.
