@@ -66,16 +66,6 @@ double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& 
   return p;
 }
 
-/// e(rho, p), J/kg, to the last digits: pressures are linear in the energy, or nearly.
-double energy_of(const EquationOfState& law, double density, double pressure) {
-  double e = eos::energy_at_pressure(law, density, pressure);
-  for (int n = 0; n < 3; ++n) {
-    const auto at = slopes_of(law, density, e);
-    if (at.per_energy > 0.0) e += (pressure - at.pressure) / at.per_energy;
-  }
-  return e;
-}
-
 /// Heat (J) that a fluid holds; of a law that does not tell, what it usually holds.
 Lanes heat_in(const Fluid& fluid, const FluidShare<Lanes>& s) {
   if (eos::caloric(fluid.equation_of_state) != eos::Caloric::complete) return s.mass * fluid.usual_heat;
@@ -306,6 +296,15 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
     shares[r].gruneisen = at.per_energy / density;
   }
   return pressure;
+}
+
+double energy_of(const EquationOfState& law, double density, double pressure) {
+  double e = eos::energy_at_pressure(law, density, pressure);
+  for (int n = 0; n < 3; ++n) {
+    const auto at = slopes_of(law, density, e);
+    if (at.per_energy > 0.0) e += (pressure - at.pressure) / at.per_energy;
+  }
+  return e;
 }
 
 Lanes coldest_energy(const Fluid& fluid, const Lanes& density) {

@@ -29,6 +29,9 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
 /// Energy of a fluid at T = 0, J/kg: with less it has no state. Where a law's energy counts from anywhere there is no limit.
 Lanes coldest_energy(const Fluid& fluid, const Lanes& density);
 
+/// e(rho, p), J/kg, to the last digits: pressures are linear in the energy, or nearly.
+double energy_of(const EquationOfState& law, double density, double pressure);
+
 /// A state that the fluid can have, for lanes without it.
 void give_usual_state(Fluid& fluid);
 

@@ -100,6 +100,7 @@ void fill_in_portions(Gas& gas, const PortionsFunction& portions, Domain& domain
   gas.marks = CellSet(1, packs);
   gas.primitive.resize(blocks), gas.half_step.resize(blocks), gas.marks.resize(blocks);
   gas.swept.assign(blocks * static_cast<std::size_t>(D * (D == 3 ? 8 : 1) * line_faces), Lanes(0.0));
+  gas.fans.resize(blocks);
   open_passages(gas);
   prepare_burns(gas);
   for (Fluid& fluid : gas.fluids) give_usual_state(fluid);
@@ -284,6 +285,7 @@ std::vector<Totals> burned(const Gas& gas, Domain& domain) {
 
 std::size_t Gas::bytes() const {
   std::size_t sum = swept.capacity() * sizeof(Lanes) + face_laws.capacity() * sizeof(FaceLaw) + bytes_of(bodies);
+  for (const std::vector<Fan>& of_block : fans) sum += of_block.capacity() * sizeof(Fan);
   if (classic) sum += classic->state.bytes();
   for (const CellSet* set : {&content, &moved, &next, &marks, &primitive, &half_step, &transport, &unknown, &burning_area,
                              &filtered, &filtering, &released})

@@ -18,6 +18,7 @@
 #include "models/reaction/reaction.hpp"
 #include "simulator/gas/bodies.hpp"
 #include "simulator/gas/cells.hpp"
+#include "simulator/gas/fan.hpp"
 #include "simulator/ledger.hpp"
 
 namespace brisance::simulator::gas {
@@ -190,6 +191,7 @@ struct Gas {
   CellSet unknown;                                      // implicit: number of each cell among the unknowns; -1: none
   std::vector<FaceLaw> face_laws;                       // implicit: [block][axis][pencil][face]
   std::vector<Lanes> swept;                             // m^3 that pass the faces in a step: [block][axis][pencil][face]
+  std::vector<std::vector<Fan>> fans;                   // of each block, that open in a step
   std::vector<Passage> passages;                        // in Morton order of the blocks
   std::vector<std::array<std::int32_t, 7>> passage_of;  // of each block and side, and of gravity; -1: none
 

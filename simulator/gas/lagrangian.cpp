@@ -66,7 +66,9 @@ void half_step_of(Gas& gas, std::size_t block, double dt) {
 template <int D>
 struct FaceStates {
   Pencil density, pressure, sound, gruneisen, velocity[D], half_pressure, half_velocity, plain;
-  Pencil stretch;  // change of the velocity along the pencil over a cell; acoustic_faces finds it
+  // These acoustic_faces finds.
+  Pencil stretch;                          // change of the velocity along the pencil over a cell
+  Unset<FaceSide, reach> to_low, to_high;  // what the cells send to their faces
 };
 template <int D>
 void load_states(const Gas& gas, std::size_t block, int axis, int n, FaceStates<D>& s) {
@@ -86,7 +88,7 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>&
                     FacePencil& face_pressure) {
   const double half_head = 0.5 * gas.gravity[static_cast<std::size_t>(axis)] * gas.cells.cell_size;
   const Pencil& velocity = s.velocity[axis];
-  Unset<FaceSide, reach> to_low, to_high;
+  Unset<FaceSide, reach>&to_low = s.to_low, &to_high = s.to_high;
   Pencil speed;
   for (std::size_t c = ring - 1; c <= ring + line; ++c) {
     const LanesMask first_order = gas.careful ? s.plain[c] > 0.0 : LanesMask(false);
@@ -127,6 +129,26 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>&
     for (int l = 0; l < 8; ++l)
       if (lanes >> l & 1) face_velocity[f].set(l, found.velocity[l]), face_pressure[f].set(l, found.pressure[l]);
   });
+}
+
+/// Keeps the states of the faces at which fans may open, for the remap.
+template <int D>
+void note_fans(Gas& gas, std::size_t block, int axis, int n, double dt, const FaceStates<D>& s, const PencilMetric& metric,
+               const FacePencil& face_velocity, const FacePencil& face_pressure) {
+  for (std::size_t f = 0; f < line_faces; ++f) {
+    const std::size_t l = ring + f - 1, r = ring + f;
+    const LanesMask up = face_velocity[f] > 0.0;
+    const auto donor = [&](const Pencil& field) { return select(up, field[l], field[r]); };
+    const Lanes pressure = select(up, s.to_high[l].pressure, s.to_low[r].pressure);
+    const Lanes density = donor(s.density), sound = donor(s.sound), bulk = density * sound * sound;
+    LanesMask opens = may_open_fan(pressure, face_pressure[f], bulk);
+    if (none(opens)) continue;
+    if (gas.careful) opens &= !(s.plain[l] + s.plain[r] > 0.0);
+    const Lanes gamma = 1.0 + donor(s.gruneisen);
+    gas.fans[block].push_back({axis, n, static_cast<int>(f), opens, select(up, s.to_high[l].density, s.to_low[r].density),
+                               select(up, s.to_high[l].velocity, s.to_low[r].velocity), pressure, gamma,
+                               bulk / gamma - donor(s.pressure), face_pressure[f], dt * metric.area[f]});
+  }
 }
 
 /// J, of the fluids of a cell together, at Content::energy: in what the remap is to write only later.
@@ -199,6 +221,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
   // Friction is explicit: implicit steps bear it where they are no longer than those of waves.
   constexpr double longest = 0.51;  // Courant number, and rounding
   const bool rubs = !gas.implicit || dt * gas.wave_rate <= longest;
+  gas.fans[block].clear();
   for (int axis = 0; axis < D; ++axis) {
     for (int n = 0; n < Shape::pencils; ++n) {
       FaceStates<D> states;
@@ -212,6 +235,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
         states.stretch[c] = slope(states.velocity[axis], c);
       PencilMetric metric;
       load_metric<D>(cells, block, axis, n, metric);
+      if (!gas.implicit) note_fans<D>(gas, block, axis, n, dt, states, metric, face_velocity, face_pressure);
       Lanes* swept = gas.swept_faces(block, axis, n);
       for (std::size_t f = 0; f < line_faces; ++f) {
         if (axis == 0) metric.area[f] = area_on_the_way(cells, metric.area[f], dt * face_velocity[f]);

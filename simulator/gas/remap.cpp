@@ -116,6 +116,37 @@ std::int64_t count_flattened(const Gas& gas, std::size_t block, int axis, int n,
   return count_inside<D>(gas, block, axis, n, face, carried.flattened & noticeable(carried.steepness, giving.of(sound)));
 }
 
+/// A fluid that fills a cell, with its mass (kg); -1: none does.
+struct Filled {
+  int fluid = -1;
+  double mass = 0.0;
+};
+/// Calls let_out(face, lane, donor, fluid, flow, internal) for the fans of a pencil: donor among its cells, internal energy (J)
+/// of what leaves. `filled(donor, lane)`: only cells of one fluid have fans.
+template <class WhatFills, class LetOut>
+void for_each_fan(const Gas& gas, std::size_t block, int axis, int n, const Lanes* swept, const WhatFills& filled,
+                  const LetOut& let_out) {
+  for (const Fan& fan : gas.fans[block]) {
+    if (fan.axis != axis || fan.pencil != n) continue;
+    const auto f = static_cast<std::size_t>(fan.face);
+    for (int l = 0; l < 8; ++l) {
+      if (!fan.opens[l]) continue;
+      const std::size_t donor = swept[f][l] > 0.0 ? ring + f - 1 : ring + f;
+      const auto [r, held] = filled(donor, l);
+      if (r < 0) continue;
+      const Fluid& fluid = gas.fluids[static_cast<std::size_t>(r)];
+      const std::optional<FanFlow> flow = flow_of(fan, l, swept[f][l], [&](double density, double pressure) {
+        return energy_of(fluid.equation_of_state, density, pressure);
+      });
+      constexpr double most = 0.8;  // of what the donor has
+      if (!flow || !(flow->mass < most * held)) continue;
+      const double internal = flow->energy - 0.5 * flow->momentum * flow->momentum / flow->mass;
+      const double cold = flow->mass * coldest_energy(fluid, Lanes(flow->mass / std::abs(swept[f][l])))[0];
+      if (internal > cold) let_out(f, l, donor, r, *flow, internal);
+    }
+  }
+}
+
 struct SweepResult {
   std::int64_t flattened = 0;  // faces
   bool good = true;            // no fluid is left with less than nothing
@@ -162,6 +193,21 @@ template <int D>
       if (any(carried.flattened)) result.flattened += count_flattened<D>(gas, block, axis, n, f, giving, carried);
       dE[f] = swept[f] * giving.leaving(energy, calm, calm) * carried.heat_kept + carried.kinetic;
     }
+    for_each_fan(
+        gas, block, axis, n, swept,
+        [&](std::size_t c, int l) {
+          return Filled{0, mass[c][l]};
+        },
+        [&](std::size_t f, int l, std::size_t donor, int, const FanFlow& flow, double) {
+          const double along = swept[f][l] > 0.0 ? flow.mass : -flow.mass;
+          double motion = 0.0;
+          for (int a = 0; a < D; ++a) {
+            const double u = velocity[a][donor][l];
+            dp[a][f].set(l, a == axis ? flow.momentum : along * u);
+            if (a != axis) motion += 0.5 * along * u * u;
+          }
+          dm[f].set(l, along), dE[f].set(l, (swept[f][l] > 0.0 ? flow.energy : -flow.energy) + motion);
+        });
     for (std::size_t f = 0; f < line; ++f) {
       const std::size_t c = ring + f;
       room[c] -= swept[f + 1] - swept[f];
@@ -263,6 +309,27 @@ template <int D>
       if (any(carried.flattened)) result.flattened += count_flattened<D>(gas, block, axis, n, f, giving, carried);
       dE[f] = dI_all * carried.heat_kept + carried.kinetic;
     }
+    const auto filled = [&](std::size_t c, int l) {
+      constexpr double nearly_all = 1.0 - 1e-6;
+      for (std::size_t r = 0; r < fluids; ++r)
+        if (fluid[r].part[c][l] > nearly_all) return Filled{static_cast<int>(r), fluid[r].mass[c][l]};
+      return Filled{};
+    };
+    for_each_fan(gas, block, axis, n, swept, filled,
+                 [&](std::size_t f, int l, std::size_t donor, int filling, const FanFlow& flow, double internal) {
+                   const double sign = swept[f][l] > 0.0 ? 1.0 : -1.0, along = sign * flow.mass;
+                   FluidPencils& at = fluid[static_cast<std::size_t>(filling)];
+                   at.dm[f].set(l, along), at.dI[f].set(l, sign * internal);
+                   double traces = 0.0, carried = sign * flow.energy;  // traces of others leave as they would
+                   for (const FluidPencils& other : fluid)
+                     if (&other != &at) traces += other.dm[f][l], carried += other.dI[f][l];
+                   for (int a = 0; a < D; ++a) {
+                     const double u = velocity[a][donor][l], beside = a == axis ? traces : traces + along;
+                     dp[a][f].set(l, beside * u + (a == axis ? flow.momentum : 0.0));
+                     carried += 0.5 * beside * u * u;
+                   }
+                   dE[f].set(l, carried);
+                 });
     for (std::size_t f = 0; f < line; ++f) {
       const std::size_t c = ring + f;
       room[c] -= swept[f + 1] - swept[f];
