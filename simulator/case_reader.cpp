@@ -641,6 +641,24 @@ void place_in_file(std::vector<Problem>& problems, const std::vector<MaterialCha
       }
 }
 
+/// What --set has changed, for the subtitle: "key=value, key=value". Title and subtitle show themselves.
+std::string told(const std::vector<std::string>& overrides) {
+  const auto trimmed = [](std::string text) {
+    text.erase(0, text.find_first_not_of(" \t"));
+    text.erase(text.find_last_not_of(" \t") + 1);
+    return text;
+  };
+  std::string result;
+  for (const std::string& assignment : overrides) {
+    const auto equals = assignment.find('=');
+    if (equals == std::string::npos) continue;  // a problem already
+    const std::string key = trimmed(assignment.substr(0, equals));
+    if (key == "title" || key == "subtitle") continue;
+    result += fmt::format("{}{}={}", result.empty() ? "" : ", ", key, trimmed(assignment.substr(equals + 1)));
+  }
+  return result;
+}
+
 }  // namespace
 
 Case read_case(const Path& file, const std::vector<std::string>& overrides) {
@@ -651,8 +669,8 @@ Case read_case(const Path& file, const std::vector<std::string>& overrides) {
   TableReader top = input.top();
   Case result = CaseReader().read(top);
   result.file = file;
-  for (const std::string& assignment : overrides)
-    if (!assignment.starts_with("title=")) result.subtitle += (result.subtitle.empty() ? "with " : ", ") + assignment;
+  if (const std::string set = told(overrides); !set.empty())
+    result.subtitle += (result.subtitle.empty() ? "with " : ", ") + set;
   std::vector<Problem> problems = input.problems();
   place_in_file(problems, changes, file);
   if (!problems.empty()) throw InputError(std::move(problems));

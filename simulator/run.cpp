@@ -111,7 +111,6 @@ class Run {
     log_.set_wall_time_before(restored.progress.wall_time);
     std::filesystem::remove(options_.directory / "summary.json");  // it told of the part before
     log_.line(fmt::format("goes on from {}, step {}, time {:.6g} s", restored.file.string(), s_.step, s_.time));
-    if (had_failed) log_.line(std::string(after) + told->message.substr(0, told->message.find('\n')));
     snapshot_times_ = restored.progress.snapshot_times;
     row_time_ = restored.progress.row_time;
     last_checkpoint_ = restored.file;
@@ -119,6 +118,7 @@ class Run {
       history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), restored.progress.history_rows);
       // A run that a gate has ended does not go on past it: its last row is judged again, by the gates as they are now.
       if (row_time_ == s_.time) check_gates(case_.gates, s_, books_of(s_));
+      if (had_failed) log_.line(std::string(after) + told->message.substr(0, told->message.find('\n')));
       loop();
     });
   }

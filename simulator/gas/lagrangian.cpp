@@ -135,6 +135,17 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>&
 template <int D>
 void note_fans(Gas& gas, std::size_t block, int axis, int n, double dt, const FaceStates<D>& s, const PencilMetric& metric,
                const FacePencil& face_velocity, const FacePencil& face_pressure) {
+  // Beyond a side of prescribed pressure that pressure stands beside the density of the cell inside: a state from which no
+  // fan opens.
+  const auto enters_by_pressure = [&](std::size_t f) {
+    LanesMask enters(false);
+    for_each_passage(gas, block, axis, n, [&](const Passage& passage, double sign, std::uint8_t lanes) {
+      if (static_cast<std::size_t>(passage.face) == f &&
+          gas.edges[static_cast<std::size_t>(passage.side)].kind == EdgeKind::pressure)
+        enters |= lanes_of(lanes) & (sign * face_velocity[f] > 0.0);
+    });
+    return enters;
+  };
   for (std::size_t f = 0; f < line_faces; ++f) {
     const std::size_t l = ring + f - 1, r = ring + f;
     const LanesMask up = face_velocity[f] > 0.0;
@@ -144,6 +155,7 @@ void note_fans(Gas& gas, std::size_t block, int axis, int n, double dt, const Fa
     LanesMask opens = may_open_fan(pressure, face_pressure[f], bulk);
     if (none(opens)) continue;
     if (gas.careful) opens &= !(s.plain[l] + s.plain[r] > 0.0);
+    opens &= !enters_by_pressure(f);
     const Lanes gamma = 1.0 + donor(s.gruneisen);
     gas.fans[block].push_back({axis, n, static_cast<int>(f), opens, select(up, s.to_high[l].density, s.to_low[r].density),
                                select(up, s.to_high[l].velocity, s.to_low[r].velocity), pressure, gamma,

@@ -44,7 +44,7 @@ TEST(RunCommand, NamesWhatWasSet) {
   const fs::path directory = scratch();
   const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
                     run = (directory / "run").string(), said = "with end_time=0.2 us, numerics.courant=0.3";
-  const std::vector<std::string> set = {"--set", "end_time=0.2 us", "--set", "title=Bar", "--set", "numerics.courant=0.3"};
+  const std::vector<std::string> set = {"--set", "end_time = 0.2 us", "--set", "title = Bar", "--set", "numerics.courant=0.3"};
   std::vector<std::string> words = {"run", file, "-o", run};
   words.insert(words.end(), set.begin(), set.end());
   EXPECT_TRUE(contains(call(words).out, "Bar: done\n  " + said + '\n'));
@@ -422,7 +422,6 @@ TEST(DescribeCommand, ExplainsShapesByExamplesThatCanBeRead) {
   EXPECT_TRUE(contains(call({"describe", "spere"}).err, "did you mean \"sphere\"?"));
 }
 
-/// Everything that it names can be used: a formula of all functions and variables is one.
 /// Each kind of edge with the keys that are said to be needed can be read, and `pressure` refuses more.
 TEST(DescribeCommand, TellsWhichKeysEachKindOfEdgeTakes) {
   for (const char* asked : {"gas.edge", "gas.edge.kind", "non_reflecting"}) {
@@ -444,6 +443,7 @@ TEST(DescribeCommand, TellsWhichKeysEachKindOfEdgeTakes) {
   EXPECT_NE(problems_with("pressure", "pressure = 1e5\ntemperature = 300\n"), "");
 }
 
+/// Everything that it names can be used: a formula of all functions and variables is one.
 TEST(DescribeCommand, ExplainsFormulas) {
   const Answer a = call({"describe", "formula"});
   EXPECT_EQ(a.code, done) << a.err;

@@ -115,6 +115,32 @@ TEST(OpenEnd, HasThePressureBeyondWhereTheGasLeavesSlowerThanSound) {
     }
 }
 
+TEST(PressureBeyond, DrivesTheShockOfAPistonIntoGasAtRest) {
+  // What enters has the density of the cell that it enters, which the start leaves a little thin.
+  constexpr int cells = 200;
+  constexpr double close = 0.04, h = 1.0 / cells, gamma = 1.4;
+  for (const double pressure : {2.0, 5.0, 10.0}) {
+    const auto domain = single_process();
+    Gas gas = set_up::box(Geometry::planar_1d, h, {}, {cells, 0, 0}, {set_up::ideal_gas()}, *domain);
+    gas.edges[0] = set_up::beyond(EdgeKind::pressure, Filling{0, 1.0, pressure, {}});
+    fill(
+        gas,
+        [](const Vector&, double) {
+          return Filling{0, 1.0, 1.0, {}};
+        },
+        *domain);
+    // Of the shock (Toro, ch. 3.1); it ends half-way.
+    const double density = ((gamma + 1.0) * pressure + gamma - 1.0) / ((gamma - 1.0) * pressure + gamma + 1.0);
+    const double velocity = (pressure - 1.0) * std::sqrt(2.0 / ((gamma + 1.0) * pressure + gamma - 1.0));
+    const double end = 0.5 * (density - 1.0) / (density * velocity);
+    Stepper().to(gas, end, *domain);
+    const double entered = totals(gas, *domain).mass[0] - 1.0;
+    EXPECT_NEAR(entered / (density * velocity * end), 1.0, close) << pressure << " Pa";
+    RecordProperty("entered_" + std::to_string(static_cast<int>(pressure)),
+                   std::to_string(entered / (density * velocity * end)));
+  }
+}
+
 /// Where the pressure beyond an inflow rises and falls and its velocity does not, half of it runs in as a wave of sound and
 /// half of it stands at the side.
 TEST(Inflow, SendsHalfOfAPressureThatPulsesAloneIn) {
