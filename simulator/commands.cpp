@@ -125,7 +125,12 @@ void look_ahead(const Path& directory, double until) {
 int resume_run(const Options& o) {
   const Case c = case_of_run(o.directory);
   const std::optional<double> until = until_time(o.until);
+  if (until && !(*until > 0.0)) throw std::invalid_argument(fmt::format("--until {}: must be later than 0 s", o.until));
   const bool later = until && *until > c.end_time;
+  constexpr double surprising = 10.0;
+  if (later && *until > surprising * c.end_time)
+    fmt::print(stderr, "warning: --until {} is {:.3g} s, {:.3g} times the end of the case; a number alone counts seconds\n",
+               o.until, *until, *until / c.end_time);
   if (later) look_ahead(o.directory, *until);
   Simulation s = set_up_or_refuse(c);
   use_threads(o.threads, s);

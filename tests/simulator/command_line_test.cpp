@@ -194,7 +194,10 @@ TEST(ResumeCommand, RemembersALaterTimeAndKeepsWhatCameAlongBesideTheCase) {
                                .string(),
                     run = (directory / "run").string();
   ASSERT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.5 us"}).code, done);
-  ASSERT_EQ(call({"resume", run, "--until", "1 us"}).code, done);
+  EXPECT_EQ(call({"resume", run, "--until", "-1"}).code, bad_input);
+  const Answer later = call({"resume", run, "--until", "1 us"});
+  ASSERT_EQ(later.code, done);
+  EXPECT_FALSE(contains(later.err, "counts seconds"));
   fs::remove(profile);
   fs::rename(directory / "run", directory / "moved");
   const Case c = read_case(directory / "moved" / "case.toml");
