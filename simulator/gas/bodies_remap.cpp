@@ -17,6 +17,7 @@ struct Giving {
   Lanes part;
 
   Lanes of(const Column& q) const { return select(up, at(q, low), at(q, high)); }
+  Lanes ahead(const Column& q) const { return select(up, at(q, high), at(q, low)); }
   Lanes difference(const Column& q, const Lanes& leaving) const {
     return difference_across_donor(up, at(q, low - step), at(q, low), at(q, high), at(q, high + step), leaving);
   }
@@ -81,12 +82,14 @@ std::int64_t find_passing(Gas& gas, double dt, std::size_t axis) {
         given |= most_of_it;
         const Lanes own = volume[r] + select(most_of_it, left, Lanes(0.0));
         const Lanes own_part = min(Lanes(own / max(Lanes(part * room), Lanes(1e-300))), Lanes(0.9999));
-        // Slopes only where the cell before, this one and the next all have the fluid.
+        // Slopes only where the cell before, this one and the next all have the fluid, and it does not end in the next.
         const Lanes around =
             min(min(at(s.part[r], giving.low), at(s.part[r], giving.high)),
                 select(giving.up, at(s.part[r], giving.low - giving.step), at(s.part[r], giving.high + giving.step)));
-        const LanesMask smooth = giving.smooth & (around > 0.0);
-        const Lanes dm = select(here, sign * own * giving.leaving(s.fluid_density[r], own_part, smooth), Lanes(0.0));
+        const Column& density = s.fluid_density[r];
+        const LanesMask smooth =
+            giving.smooth & (around > 0.0) & !ends_ahead(giving.ahead(s.part[r]), giving.ahead(density), giving.of(density));
+        const Lanes dm = select(here, sign * own * giving.leaving(density, own_part, smooth), Lanes(0.0));
         const Lanes dI = select(here, sign * own * giving.leaving(s.fluid_energy[r], own_part, smooth), Lanes(0.0));
         const std::size_t first = Content::momentum + D + per_fluid * r;
         put(first + Content::mass, dm), put(first + Content::volume, select(here, sign * own, Lanes(0.0)));

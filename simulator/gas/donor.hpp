@@ -34,6 +34,14 @@ inline Lanes difference_across_donor(const LanesMask& up, const Lanes& before, c
                              half_bound);
 }
 
+/// Whether a fluid ends in the cell ahead of the donor: it shares that cell and is less than a tenth as dense there. No slopes
+/// lead over such an edge. With them the cell at the front of products that expand into air was emptied more and more, what was
+/// left in it grew hotter and the steps shorter without end. `part`: of the volume of the cell ahead.
+inline LanesMask ends_ahead(const Lanes& part, const Lanes& density_ahead, const Lanes& density) {
+  constexpr double least = 0.1, all = 1.0 - 1e-12;
+  return (part < all) & (density_ahead < least * density);
+}
+
 /// 0 in shocks, 1 away from them, by the internal energies (J/m^3) about a face: a shock is where these change by two to four
 /// tenths of the donor's from cell to cell, and the cells beside the face approach each other: `approach`, density times the
 /// square of the velocity's jump (J/m^3; 0 where they part), is then more than a hundredth of that change. Contacts are none.

@@ -32,6 +32,7 @@ struct Giving {
   Lanes order;  // 0: without slopes, 1
 
   Lanes of(const Pencil& field) const { return select(up, field[low], field[high]); }
+  Lanes ahead(const Pencil& field) const { return select(up, field[high], field[low]); }
   LanesMask of(const std::array<LanesMask, reach>& mask) const { return (up & mask[low]) | ((!up) & mask[high]); }
   /// Mean of a field over what leaves.
   Lanes leaving(const Pencil& field) const { return of(field) + (0.5 * order) * (1.0 - part) * difference(field, part); }
@@ -41,12 +42,15 @@ struct Giving {
         difference_across_donor(up, field[low - 1], field[low], field[high], field[high + 1], part, fourth_order, steepening);
     return of(field) + (0.5 * order) * (1.0 - part) * across;
   }
-  /// The same of a fluid's field: only some cells have it, and what leaves is a part of its own.
-  Lanes leaving(const Pencil& field, const std::array<LanesMask, reach>& present, const Lanes& own_part) const {
+  /// The same of a fluid's field, where the fluid has slopes: what leaves is a part of its own.
+  Lanes leaving(const Pencil& field, const LanesMask& sloped, const Lanes& own_part) const {
+    return of(field) + select(sloped, (0.5 * order) * (1.0 - own_part) * difference(field, own_part), Lanes(0.0));
+  }
+  /// Where the cells about the donor have a fluid, too, and it does not end in the next one.
+  LanesMask sloped(const std::array<LanesMask, reach>& present, const Pencil& filling, const Pencil& density) const {
     const LanesMask low_side = present[low - 1] & present[low] & present[high];
     const LanesMask high_side = present[low] & present[high] & present[high + 1];
-    const LanesMask smooth = (up & low_side) | ((!up) & high_side);
-    return of(field) + select(smooth, (0.5 * order) * (1.0 - own_part) * difference(field, own_part), Lanes(0.0));
+    return ((up & low_side) | ((!up) & high_side)) & !ends_ahead(ahead(filling), ahead(density), of(density));
   }
   Lanes difference(const Pencil& field, const Lanes& what_leaves) const {
     return difference_across_donor(up, field[low - 1], field[low], field[high], field[high + 1], what_leaves);
@@ -298,8 +302,9 @@ template <int D>
         const Lanes volume = at.dV[f] + select(most_of_it, left, Lanes(0.0));
         at.dV[f] = sign * volume;
         const Lanes own_part = min(Lanes(volume / max(giving.of(at.volume), Lanes(1e-300))), Lanes(0.9999));
-        const Lanes dm = at.dV[f] * giving.leaving(at.density, at.present, own_part);
-        const Lanes dI = at.dV[f] * giving.leaving(at.energy, at.present, own_part);
+        const LanesMask sloped = giving.sloped(at.present, at.part, at.density);
+        const Lanes dm = at.dV[f] * giving.leaving(at.density, sloped, own_part);
+        const Lanes dI = at.dV[f] * giving.leaving(at.energy, sloped, own_part);
         const Lanes residue = sign * giving.part;
         at.dm[f] = select(here, dm, residue * giving.of(at.mass)),
         at.dI[f] = select(here, dI, residue * giving.of(at.internal));
