@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
 #include "driver/calibrate.hpp"
@@ -12,6 +11,7 @@
 #include "driver/run_command.hpp"
 #include "models/input/diagnostics.hpp"
 #include "models/input/material_folders.hpp"
+#include "models/programs/command_line.hpp"
 #include "models/programs/laws.hpp"
 
 namespace brisance::driver {
@@ -108,17 +108,7 @@ int run_command_line(int argc, char** argv) {
   describe_command->add_option("NAME", law, "law, folder/law or folder; key or its path; without it all are listed");
   describe_command->callback([&] { code = law.empty() ? list() : describe(law); });
 
-  return exit_code_of([&] {
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-      std::vector<std::string> commands;
-      for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
-      if (const std::string wrong = no_such_command(argc, argv, commands); !wrong.empty()) throw std::invalid_argument(wrong);
-      return app.exit(error) == 0 ? static_cast<int>(done) : bad_input;
-    }
-    return code;
-  });
+  return exit_code_of([&] { return parse(app, argc, argv) ? code : bad_input; });
 }
 
 }  // namespace brisance::driver

@@ -14,6 +14,7 @@
 #include "driver/follow.hpp"
 #include "driver/keys.hpp"
 #include "driver/plot.hpp"
+#include "models/interpolate.hpp"
 #include "models/programs/progress.hpp"
 
 namespace brisance::driver {
@@ -49,15 +50,6 @@ LoadingPath path_of(const Test& test, const Comparison& comparison, double large
   load.until = Until{"plastic_strain", largest_plastic_strain};
   path.segments.push_back(load);
   return path;
-}
-
-/// Linear interpolation in a curve whose x increases; beyond its ends, its end values.
-double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const auto above = std::upper_bound(x.begin(), x.end(), at);
-  if (above == x.begin()) return y.front();
-  if (above == x.end()) return y.back();
-  const std::size_t i = static_cast<std::size_t>(above - x.begin());
-  return y[i - 1] + (at - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
 }
 
 TestResult compare_one(const Test& test, const Material& material, const Comparison& comparison) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "models/interpolate.hpp"
 #include "rays.hpp"
 #include "simulator/gas/fields.hpp"
 #include "simulator/gas/initial_state.hpp"
@@ -103,7 +104,7 @@ inline double error_of_return(const Ran& ran) {
   double square = 0.0;
   gas::for_each_cell(gas, [&](const gas::CellPlace& at) {
     const Vector away = gas.cells.centre(at.block, at.cell) - config.centre;
-    const double exact = gas::interpolate(start.place, start.density, std::sqrt(dot(away, away)));
+    const double exact = interpolate(start.place, start.density, std::sqrt(dot(away, away)));
     square += std::pow(gas.primitive.cell(at.block, gas::Primitive::density, at.cell) - exact, 2);
   });
   return std::sqrt(square / static_cast<double>(gas.cells.count()));

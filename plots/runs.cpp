@@ -107,12 +107,4 @@ std::vector<double> evenly(double first, double last, int n) {
   return result;
 }
 
-double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const auto above = std::upper_bound(x.begin(), x.end(), at);
-  if (above == x.begin()) return y.front();
-  if (above == x.end()) return y.back();
-  const std::size_t i = static_cast<std::size_t>(above - x.begin());
-  return y[i - 1] + (at - x[i - 1]) / (x[i] - x[i - 1]) * (y[i] - y[i - 1]);
-}
-
 }  // namespace brisance::plots

@@ -8,6 +8,7 @@
 
 #include "driver/follow.hpp"
 #include "driver/plot.hpp"
+#include "models/interpolate.hpp"
 
 namespace brisance::plots {
 
@@ -44,9 +45,6 @@ Curve curve(std::string title, const std::vector<double>& x, const std::vector<d
 
 /// n + 1 numbers from first to last.
 std::vector<double> evenly(double first, double last, int n);
-
-/// Linear interpolation in a table whose x increases.
-double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at);
 
 inline constexpr double mega = 1e6, giga = 1e9, degrees = 180.0 / std::numbers::pi;
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <omp.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include "models/input/material_folders.hpp"
 #include "models/input/table_reader.hpp"
 #include "models/input/units.hpp"
+#include "models/programs/command_line.hpp"
 #include "models/programs/laws.hpp"
 #include "models/programs/progress.hpp"
 #include "simulator/case_reader.hpp"
@@ -304,17 +304,7 @@ int run_command_line(int argc, char** argv) {
       "KEY", o.key, "path or last name of a key, a table, a value, a shape, a law, or a material; without it all keys");
   describe_command->callback([&] { code = describe_keys(o.key); });
 
-  return exit_code_of([&] {
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-      std::vector<std::string> commands;
-      for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
-      if (const std::string wrong = no_such_command(argc, argv, commands); !wrong.empty()) throw std::invalid_argument(wrong);
-      return app.exit(error) == 0 ? static_cast<int>(done) : bad_input;
-    }
-    return code;
-  });
+  return exit_code_of([&] { return parse(app, argc, argv) ? code : bad_input; });
 }
 
 }  // namespace brisance::simulator

@@ -1,20 +1,17 @@
 #pragma once
-// What tests of the programs' command lines share: calling one, a directory of the test's own, texts and files.
+// What tests of the programs' command lines share: calling one, texts and files.
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
-namespace brisance {
+#include "tests/scratch.hpp"
 
-namespace fs = std::filesystem;
+namespace brisance {
 
 struct Answer {
   int code;
@@ -35,17 +32,6 @@ inline Answer call_program(int (*run_command_line)(int, char**), std::vector<std
 
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
-}
-
-/// A fresh directory of this test.
-inline fs::path scratch() {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = std::string("brisance_") + info->test_suite_name() + "_" + info->name();
-  std::replace(name.begin(), name.end(), '/', '_');
-  const fs::path directory = fs::path(testing::TempDir()) / (name + "_" + std::to_string(getpid()));
-  fs::remove_all(directory);
-  fs::create_directories(directory);
-  return directory;
 }
 
 inline fs::path write_text(const fs::path& path, const std::string& text) {

@@ -11,6 +11,7 @@
 #include "models/input/csv.hpp"
 #include "models/input/diagnostics.hpp"
 #include "models/input/units.hpp"
+#include "models/interpolate.hpp"
 #include "simulator/solid/shapes.hpp"
 #include "simulator/step_failure.hpp"
 
@@ -151,13 +152,6 @@ StateProfile read_state_profile(const ProfileConfig& config) {
     csv.problem("a density is not above 0");
   csv.finish();
   return profile;
-}
-
-double interpolate(const std::vector<double>& place, const std::vector<double>& column, double x) {
-  const auto above = static_cast<std::size_t>(std::upper_bound(place.begin(), place.end(), x) - place.begin());
-  if (above == 0) return column.front();
-  if (above == place.size()) return column.back();
-  return std::lerp(column[above - 1], column[above], (x - place[above - 1]) / (place[above] - place[above - 1]));
 }
 
 InitialState::InitialState(const GasConfig& config, const std::vector<Fluid>& fluids, const Cells& cells, const OpenParts& open)

@@ -18,8 +18,6 @@ struct StateProfile {
 };
 /// Throws InputError if the file cannot be read, has other columns, or says something impossible.
 StateProfile read_state_profile(const ProfileConfig& config);
-/// A column at a place: linear between the rows, constant beyond them.
-double interpolate(const std::vector<double>& place, const std::vector<double>& column, double x);
 
 /// Places in a cell along each direction that are asked what fills them: a cell that a shape cuts is filled in proportion, to
 /// about a part in a hundred.

@@ -11,8 +11,8 @@
 #include "models/programs/files.hpp"
 #include "simulator/gas/sums.hpp"
 #include "simulator/output/extensive.hpp"
+#include "simulator/solid/internal_energy.hpp"
 #include "simulator/solid/motion.hpp"
-#include "simulator/solid/stress.hpp"
 
 namespace brisance::simulator {
 namespace {

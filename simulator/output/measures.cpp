@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "models/input/csv.hpp"
+#include "models/interpolate.hpp"
 #include "simulator/output/fields.hpp"
 
 namespace brisance::simulator {
@@ -78,13 +79,7 @@ double mean_deviation(const Profile& profile, const MeasuredProfile& measured, c
 }  // namespace
 
 double Profile::radius_at(double at) const {
-  if (height.empty()) return 0.0;
-  const auto above = std::upper_bound(height.begin(), height.end(), at);
-  if (above == height.begin()) return radius.front();
-  if (above == height.end()) return radius.back();
-  const auto i = static_cast<std::size_t>(above - height.begin());
-  const double part = (at - height[i - 1]) / (height[i] - height[i - 1]);
-  return radius[i - 1] + part * (radius[i] - radius[i - 1]);
+  return height.empty() ? 0.0 : interpolate(height, radius, at);
 }
 
 Profile profile_of(const Simulation& s, const Body& body, Axis along) {

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "simulator/domain/message.hpp"
-#include "simulator/solid/stress.hpp"
+#include "simulator/solid/internal_energy.hpp"
 
 namespace brisance::simulator {
 namespace {

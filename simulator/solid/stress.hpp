@@ -20,8 +20,4 @@ void update_stress(Simulation& s, double dt, ColumnSet Particles::*velocities);
 /// The extremes of the state as it is, without advancing it.
 Extremes extremes_of(const Simulation& s);
 
-/// The internal energy of a body's particles, or of all, summed in the order of the bins.
-InternalEnergy internal_energy(const Simulation& s, const Body& body);
-InternalEnergy internal_energy(const Simulation& s);
-
 }  // namespace brisance::simulator

@@ -3,16 +3,14 @@
 #include "driver/compare.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
+
+#include "tests/scratch.hpp"
 
 namespace brisance::driver {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Johnson-Cook's flow stress of the material file below, written out once more.
 constexpr double A = 324e6, B = 114e6, n = 0.42, C = 0.002, m = 1.34, room = 298, melting = 925;
@@ -23,8 +21,7 @@ double johnson_cook(double strain, double rate, double temperature) {
 
 /// A comparison of made-up tests, `factor` times what the law gives, with that law.
 Comparison comparison_of(double factor, const std::string& protocol) {
-  const fs::path folder = fs::path(testing::TempDir()) / ("brisance_compare_" + std::to_string(getpid()));
-  fs::create_directories(folder);
+  const fs::path folder = scratch();
   std::ofstream csv(folder / "tests.csv");
   csv << "test,who,temperature [K],strain_rate [1/s],pressure [MPa],plastic_strain,stress [MPa]\n";
   const auto add = [&](const char* name, const char* who, double temperature, double rate, double pressure) {
@@ -45,9 +42,7 @@ Comparison comparison_of(double factor, const std::string& protocol) {
       << protocol
       << "[[model]]\nname = \"law\"\nmaterial = \"" BRISANCE_SOURCE_DIR
          "/data/materials/aluminium_6061_t6_johnson_cook.toml\"\n";
-  Comparison comparison = read_comparison(folder / "case.toml");
-  fs::remove_all(folder);
-  return comparison;
+  return read_comparison(folder / "case.toml");
 }
 
 // The plastic strain rate is that of the test less the elastic part, one or two percent, which the logarithm makes 2e-5 of the

@@ -10,6 +10,7 @@
 #include "driver/follow.hpp"
 #include "driver/path_reader.hpp"
 #include "models/update.hpp"
+#include "tests/scratch.hpp"
 
 namespace brisance::driver {
 namespace {
@@ -212,7 +213,7 @@ TEST(Tolerance, TakesShortStepsWhereTheyAreNeededAlone) {
 }
 
 LoadingPath read_path(const std::string& segment) {
-  const std::string file = testing::TempDir() + "/follow_path.toml";
+  const fs::path file = scratch() / "path.toml";
   std::ofstream(file) << "material = \"" BRISANCE_SOURCE_DIR
                          "/data/materials/steel_4340.toml\"\nheat = \"isothermal\"\n[initial]\ntemperature = 298\n[[segment]]\n"
                       << segment;

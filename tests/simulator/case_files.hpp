@@ -2,23 +2,21 @@
 // Case files as texts, in a folder beside what they name, and what is found wrong with them.
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include "models/input/diagnostics.hpp"
 #include "simulator/case_reader.hpp"
+#include "tests/scratch.hpp"
 #include "tests/simulator/small_bar.hpp"
 
 namespace brisance::simulator {
 
 inline const fs::path& folder() {
   static const fs::path path = [] {
-    const fs::path made = fs::path(testing::TempDir()) / ("brisance_case_" + std::to_string(getpid()));
-    fs::create_directories(made);
+    const fs::path made = scratch("case");
     std::ofstream(made / "profile.csv") << "radius [mm],height [mm]\n5.5,0\n3.81,22.5\n";
     std::ofstream(made / "reference.csv") << "y [mm],pressure [GPa]\n0,1\n10,0\n";
     std::ofstream(made / "bad_profile.csv") << "radius [mm],z [mm]\n5.5,0\n";

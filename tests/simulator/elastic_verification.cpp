@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "simulator/solid/internal_energy.hpp"
 #include "simulator/solid/motion.hpp"
 #include "simulator/solid/transfer.hpp"
 #include "tests/simulator/by_hand.hpp"

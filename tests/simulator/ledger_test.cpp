@@ -11,6 +11,7 @@
 #include <string>
 
 #include "simulator/output/history.hpp"
+#include "simulator/solid/internal_energy.hpp"
 #include "simulator/solid/motion.hpp"
 #include "tests/simulator/by_hand.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "simulator/case_reader.hpp"
 #include "simulator/setup.hpp"
-#include "simulator/solid/stress.hpp"
+#include "simulator/solid/internal_energy.hpp"
 #include "simulator/time_step.hpp"
 #include "tests/simulator/by_hand.hpp"
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "simulator/parallel.hpp"
+#include "simulator/solid/internal_energy.hpp"
 #include "tests/simulator/by_hand.hpp"
 #include "tests/simulator/virtual_ranks.hpp"
 

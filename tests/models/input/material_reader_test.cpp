@@ -1,13 +1,11 @@
 #include "models/input/material_reader.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <set>
 #include <string>
@@ -15,11 +13,10 @@
 #include <vector>
 
 #include "models/input/material_folders.hpp"
+#include "tests/scratch.hpp"
 
 namespace brisance {
 namespace {
-
-namespace fs = std::filesystem;
 
 const std::string steel = R"toml(
 name = "steel"
@@ -324,13 +321,11 @@ TEST(EveryLaw, NamesAreUniqueAndLeaveLawAndSourceToTheFileFormat) {
 
 class NamedMaterial : public testing::Test {
  protected:
-  fs::path folder = fs::temp_directory_path() / ("brisance_named_material_" + std::to_string(::getpid()));
+  fs::path folder = scratch();
   void SetUp() override {
-    fs::create_directories(folder);
     std::ofstream(folder / "my_steel.toml") << steel;
     std::ofstream(folder / "broken.toml") << "name = [\n";
   }
-  void TearDown() override { fs::remove_all(folder); }
 
   MaterialFile resolve(const std::string& case_text, const std::vector<std::string>& overrides = {}) {
     InputFile input = InputFile::from_text(case_text, folder / "case.toml");
