@@ -576,8 +576,7 @@ class CaseReader : public KeyReader<CaseReader> {
       try {
         static_cast<void>(read_profile(measure.profile));
       } catch (const InputError& error) {
-        in.problem("profile", "its file cannot be used");
-        in.add_problems("profile", error.problems());
+        in.problem_of_file("profile", error.problems());
       }
     }
   }
@@ -600,8 +599,7 @@ class CaseReader : public KeyReader<CaseReader> {
     try {
       static_cast<void>(read_reference(figure));
     } catch (const InputError& error) {
-      in.problem("reference", "its file cannot be used");
-      in.add_problems("reference", error.problems());
+      in.problem_of_file("reference", error.problems());
     }
   }
 

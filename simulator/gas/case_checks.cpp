@@ -146,8 +146,7 @@ std::optional<StateProfile> check_profile(TableReader& in, const ProfileConfig& 
     if (!read.pressure.empty()) elsewhere.pressure = "the profile";
     return read;
   } catch (const InputError& error) {
-    in.problem("profile", "its file cannot be used");
-    in.add_problems("profile", error.problems());
+    in.problem_of_file("profile", error.problems());
     return unknown();
   }
 }
