@@ -279,9 +279,9 @@ struct OutputConfig {
 /// Limits on the books; a run that exceeds one stops with a report.
 struct GateConfig {
   static constexpr double usual_residual = 1e-10;
-  std::optional<double> residual;  // energy, momentum and angular momentum in no bin, part of the peak; the usual if not given
-  double numerical = 1e300;        // sum of the numerical bins over the peak kinetic energy
-  double fastest = 1e300;          // m/s: no particle is faster
+  std::optional<double> residual;   // energy, momentum and angular momentum in no bin, part of the peak; the usual if not given
+  std::optional<double> numerical;  // sum of the numerical bins over the peak kinetic energy
+  std::optional<double> fastest;    // m/s: no particle is faster
 };
 
 struct NumericsConfig {

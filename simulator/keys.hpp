@@ -319,9 +319,9 @@ inline constexpr auto keys<GateConfig> = std::tuple{
         "largest part of energy, momentum and angular momentum that no book holds, over the peak; 1e-10 if not given, but "
         "for the energy of scheme ice_classic none",
         positive},
-    Key{"numerical", &GateConfig::numerical, Unit::one, "largest energy in numerical books over the peak kinetic energy",
-        positive},
-    Key{"fastest", &GateConfig::fastest, Unit::m_per_s, "no particle may be faster", positive}};
+    Key{"numerical", &GateConfig::numerical, Unit::one,
+        "largest energy in numerical books over the peak kinetic energy; no limit if not given", positive},
+    Key{"fastest", &GateConfig::fastest, Unit::m_per_s, "no particle may be faster; no limit if not given", positive}};
 
 // The whole: top level, [numerics] ---------------------------------------------------------------------------------------
 

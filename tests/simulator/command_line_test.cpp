@@ -410,6 +410,12 @@ TEST(CommandLine, NamesTheNearestCommandAndTheVersion) {
   EXPECT_TRUE(version.out.starts_with("brisance ")) << version.out;
 }
 
+TEST(DescribeCommand, ShowsNoLimitThatIsNone) {
+  const Answer a = call({"describe", "gates"});
+  EXPECT_TRUE(contains(a.out, "no limit if not given")) << a.out;
+  EXPECT_FALSE(contains(a.out, "e+300")) << a.out;
+}
+
 TEST(DescribeCommand, ExplainsShapesByExamplesThatCanBeRead) {
   for (const std::string_view form : shape_forms) {
     const Answer a = call({"describe", std::string(form)});
