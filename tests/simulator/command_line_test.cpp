@@ -317,6 +317,10 @@ TEST(CheckCommand, TellsSizeAndTimeAndWarnsOfThinBodies) {
   const Answer coarse = call({"check", file, "--set", "cell_size=3.2 mm", "--set", "solid.0.velocity=[0, -9000]"});
   EXPECT_TRUE(contains(coarse.out, "it is 2 cells thick, fewer than 4")) << coarse.out;
   EXPECT_TRUE(contains(coarse.out, "faster than sound")) << coarse.out;
+  const Answer wordy = call({"check", file, "--set", "output.history_interval=1 ps"});
+  EXPECT_TRUE(contains(wordy.out, "output.history_interval gives 7e+06 rows of history.csv")) << wordy.out;
+  const Answer endless = call({"check", file, "--set", "end_time=1 h"});
+  EXPECT_TRUE(contains(endless.out, " days; cells twice as large take 8 times less")) << endless.out;
 }
 
 TEST(CheckCommand, ForeseesTheStepsOfAGasAndCallsBodiesParticles) {
