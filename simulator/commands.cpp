@@ -134,7 +134,6 @@ int resume_run(const Options& o) {
   if (later) look_ahead(o.directory, *until);
   Simulation s = set_up_or_refuse(c);
   use_threads(o.threads, s);
-  if (later) set_end_time(o.directory, c, *until);
   catch_interrupts();
   return tell(resume(c, s, {o.directory, until}), o.directory);
 }
@@ -157,7 +156,7 @@ int check_case(const Options& o) {
   Simulation s = set_up_or_refuse(c);
   use_threads(o.threads, s);
   const DryRun dry = dry_run(c, s);
-  fmt::print("{}\n{}", c.title, c.subtitle.empty() ? "" : "  " + c.subtitle + '\n');
+  fmt::print("{}\n{}", c.title, c.below_title().empty() ? "" : "  " + c.below_title() + '\n');
   const std::string_view point = name_of_points(s);
   for (const DryRun::Points& p : dry.points) fmt::print("  {:24} {} {}\n", p.name, p.count, p.kind);
   fmt::print("  {:24} {:.1f} MB\n  {:24} {:.4g} s, limited by {}\n", "memory", dry.megabytes, "time step", dry.first_step,

@@ -174,7 +174,7 @@ Panel against_time(const std::string& title, std::string_view quantity, const st
 
 /// Every figure says what its case is.
 void draw(const Case& c, Figure figure, const Path& path) {
-  figure.subtitle = c.subtitle;
+  figure.subtitle = c.below_title();
   brisance::draw(figure, path);
 }
 
