@@ -57,6 +57,26 @@ TEST(RunCommand, NamesWhatWasSet) {
       << "a gate changes nothing that is computed, and is raised by hand later";
 }
 
+/// Deviations from an experiment that was another one are not left without a remark.
+TEST(RunCommand, SaysThatTheExperimentOfItsMeasuresIsAnother) {
+  const fs::path directory = scratch();
+  const std::string measure = no_figures + "[[measure]]\nkind = \"final_length\"\n",
+                    compared = write_text(directory / "bar.toml", small_bar(measure + "measured = \"11 mm\"\n")).string(),
+                    alone = write_text(directory / "alone.toml", small_bar(measure)).string(),
+                    run = (directory / "run").string(),
+                    caution = "caution: measured is the experiment of the case as its file states it; --set has changed ";
+  const auto told = [&](const std::string& file, const std::string& set) {
+    return call({"run", file, "-o", run, "--overwrite", "--set", "end_time=0.1 us", "--set", set}).out;
+  };
+  const std::string velocity = "solid.0.velocity=[0, \"-210 m/s\"]";
+  EXPECT_TRUE(contains(told(compared, velocity), caution + velocity + '\n'));
+  EXPECT_TRUE(contains(call({"report", run}).out, caution + velocity + '\n')) << "later as well";
+  EXPECT_TRUE(contains(text_of(directory / "run" / "summary.json"), "\"other_experiment\": [\n    \"solid.0.velocity=["));
+  for (const char* model : {"cell_size=0.4 mm", "solid.0.material.flow_stress.A=95 MPa", "solid.0.particles_per_direction=3"})
+    EXPECT_FALSE(contains(told(compared, model), caution)) << model;
+  EXPECT_FALSE(contains(told(alone, velocity), caution)) << "nothing is compared";
+}
+
 TEST(RunCommand, ACaseWithMistakesIsBadInput) {
   const fs::path directory = scratch();
   const Answer a = call({"run", write_text(directory / "bar.toml", small_bar("[numerics]\ncourrant = 0.3\n")).string()});
