@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "models/input/diagnostics.hpp"
 #include "models/input/material_folders.hpp"
@@ -42,18 +41,6 @@ struct Options {
   std::string until;  // a time in s, or with a unit
   std::string key;
 };
-
-/// As many threads as the user says; if he says nothing no more than pay: to wake one takes longer than a step of few points.
-/// On two threads 3840 particles and 10000 cells in the plane take as long as on one, 400 cells on a line two to twelve times
-/// as long.
-void use_threads(int threads, const Simulation& s) {
-  constexpr std::int64_t points_per_thread = 8000;
-  if (threads > 0)
-    omp_set_num_threads(threads);
-  else if (!std::getenv("OMP_NUM_THREADS"))
-    omp_set_num_threads(
-        static_cast<int>(std::clamp<std::int64_t>(count_points(s) / points_per_thread, 1, omp_get_max_threads())));
-}
 
 int tell(const RunResult& result, const Path& directory) {
   if (result.ending == Ending::nothing_left) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <new>
 
@@ -369,6 +370,17 @@ std::int64_t count_points(const Simulation& s) {
 
 std::string_view name_of_points(const Simulation& s) {
   return s.gas.empty() ? "particle" : "cell";
+}
+
+void use_threads(int threads, const Simulation& s) {
+  // To wake one takes longer than a step of few points. On two threads 3840 particles and 10000 cells in the plane take as long
+  // as on one, 400 cells on a line two to twelve times as long.
+  constexpr std::int64_t points_per_thread = 8000;
+  if (threads > 0)
+    omp_set_num_threads(threads);
+  else if (!std::getenv("OMP_NUM_THREADS"))
+    omp_set_num_threads(
+        static_cast<int>(std::clamp<std::int64_t>(count_points(s) / points_per_thread, 1, omp_get_num_procs())));
 }
 
 std::string word_of(Ending ending) {
