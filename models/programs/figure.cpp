@@ -249,13 +249,14 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
   const double title_font =
       std::clamp(width / (width_of_letter * static_cast<double>(figure.title.size())), smallest_font, largest_font);
   const double subtitle_font = std::min(10.0, title_font);  // lines are as far apart as the title's letters are high
-  const auto most_letters = static_cast<std::size_t>(width / (width_of_letter * subtitle_font));
-  std::string subtitle = figure.subtitle;
-  if (subtitle.size() > most_letters) {
+  const auto cut_to_width = [&](const std::string& text, double font) {
+    const auto most_letters = static_cast<std::size_t>(std::lround(width / (width_of_letter * font)));
+    if (text.size() <= most_letters) return text;
     std::size_t end = most_letters - 3;
-    while (end > 0 && (static_cast<unsigned char>(subtitle[end]) & 0xc0) == 0x80) --end;  // not within a letter of UTF-8
-    subtitle = subtitle.substr(0, end) + "...";
-  }
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // not within a letter of UTF-8
+    return text.substr(0, end) + "...";
+  };
+  const std::string title = cut_to_width(figure.title, title_font), subtitle = cut_to_width(figure.subtitle, subtitle_font);
   const double height = std::ceil(std::accumulate(row_heights.begin(), row_heights.end(), 0.0) + title_height);
   replace_file(path, [&](const std::filesystem::path& temporary) {
     {
@@ -268,7 +269,7 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
       plot << "set border 3 lw 1.2\nset tics nomirror out scale 0.6 font ',10'\nset grid lc rgb '#e4e4e4' lw 0.6\n";
       const std::string below =
           subtitle.empty() ? "" : fmt::format(".\"\\n{{/={:.3g} \".{}.\"}}\"", subtitle_font, plain(subtitle));
-      plot << fmt::format("set multiplot title {}{} font ',{:.3g}'\n", plain(figure.title), below, title_font);
+      plot << fmt::format("set multiplot title {}{} font ',{:.3g}'\n", plain(title), below, title_font);
       for (std::size_t i = 0; i < cells.size(); ++i) {
         const auto row = row_heights.begin() + cells[i].row;
         const double above = std::accumulate(row_heights.begin(), row + 1, static_cast<double>(title_height));

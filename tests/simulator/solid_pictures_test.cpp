@@ -97,9 +97,10 @@ TEST(EveryPicture, SaysBelowItsTitleHowItsCaseDiffersAsFarAsThereIsRoom) {
 /// A title that has to be small draws its second line nearer: letters of the usual size would lie over it.
 TEST(EveryPicture, HasNoLargerLettersBelowItsTitleThanInIt) {
   Case c = disk();
-  c.title = std::string(150, 't'), c.subtitle = "below";
+  c.title = std::string(200, 't'), c.subtitle = "below";
   const std::string told = told_to_gnuplot(c, set_up(c), scratch());
   EXPECT_TRUE(contains(told, "{/=8 ")) << told.substr(0, 1000);
+  EXPECT_TRUE(contains(told, "t...\"")) << "cut, not beyond both ends of the figure: " << told.substr(0, 1000);
 }
 
 /// One row and a body at rest in itself: neither ranges without extent nor lines of one place, nor colours below zero.
