@@ -126,8 +126,8 @@ std::string table(const std::vector<Done>& runs, const std::string& commit) {
       "work, artificial viscosity, and the numerical books (transfer, filter, what of it becomes heat, stress timing); `none` "
       "is what no book accounts "
       "for. "
-      "Wall time in seconds on {} threads.\n\n",
-      commit, omp_get_max_threads());
+      "Wall time in seconds, with as many threads as pay, {} at most.\n\n",
+      commit, omp_get_num_procs());
   text +=
       "| test | law | length | diameter | at 0.2 L | D | profile | plastic | viscous | transfer | filter | its heat | timing | "
       "none | "

@@ -18,6 +18,7 @@ Ran run_case(const std::string& file, const std::vector<std::string>& changes, c
              int parts, const std::function<void(const Simulation&)>& look) {
   Ran ran{read_case(std::filesystem::path(BRISANCE_DATA) / "cases" / (file + ".toml"), changes), {}, {}};
   ran.simulation = set_up(ran.config);
+  use_threads(0, ran.simulation);
   prepare_directory(directory, ran.config, true);
   look(ran.simulation);
   RunOptions options;

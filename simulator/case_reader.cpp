@@ -576,8 +576,7 @@ class CaseReader : public KeyReader<CaseReader> {
       try {
         static_cast<void>(read_profile(measure.profile));
       } catch (const InputError& error) {
-        in.problem("profile", "its file cannot be used");
-        in.add_problems("profile", error.problems());
+        in.problem_of_file("profile", error.problems());
       }
     }
   }
@@ -600,8 +599,7 @@ class CaseReader : public KeyReader<CaseReader> {
     try {
       static_cast<void>(read_reference(figure));
     } catch (const InputError& error) {
-      in.problem("reference", "its file cannot be used");
-      in.add_problems("reference", error.problems());
+      in.problem_of_file("reference", error.problems());
     }
   }
 
@@ -641,22 +639,21 @@ void place_in_file(std::vector<Problem>& problems, const std::vector<MaterialCha
       }
 }
 
-/// What --set has changed, for the subtitle: "key=value, key=value". Title and subtitle show themselves.
-std::string told(const std::vector<std::string>& overrides) {
+/// Adds what --set has changed: "key=value", each key once. Title and subtitle show themselves.
+void remember(std::vector<std::string>& set, const std::vector<std::string>& overrides) {
   const auto trimmed = [](std::string text) {
     text.erase(0, text.find_first_not_of(" \t"));
     text.erase(text.find_last_not_of(" \t") + 1);
     return text;
   };
-  std::string result;
   for (const std::string& assignment : overrides) {
     const auto equals = assignment.find('=');
     if (equals == std::string::npos) continue;  // a problem already
     const std::string key = trimmed(assignment.substr(0, equals));
     if (key == "title" || key == "subtitle") continue;
-    result += fmt::format("{}{}={}", result.empty() ? "" : ", ", key, trimmed(assignment.substr(equals + 1)));
+    std::erase_if(set, [&](const std::string& earlier) { return earlier.starts_with(key + '='); });
+    set.push_back(key + '=' + trimmed(assignment.substr(equals + 1)));
   }
-  return result;
 }
 
 }  // namespace
@@ -669,8 +666,7 @@ Case read_case(const Path& file, const std::vector<std::string>& overrides) {
   TableReader top = input.top();
   Case result = CaseReader().read(top);
   result.file = file;
-  if (const std::string set = told(overrides); !set.empty())
-    result.subtitle += (result.subtitle.empty() ? "with " : ", ") + set;
+  remember(result.set, overrides);
   std::vector<Problem> problems = input.problems();
   place_in_file(problems, changes, file);
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -9,9 +9,9 @@
 
 namespace brisance::simulator {
 
-/// Reads a case with its materials; overrides are texts such as "solid.0.material.flow_stress.A=95 MPa", and the
-/// subtitle names them. Throws InputError with
-/// all problems. What it returns is consistent: every name refers to something, and every body and boundary is where it can be.
+/// Reads a case with its materials; overrides are texts such as "solid.0.material.flow_stress.A=95 MPa", and
+/// the case remembers them. Throws InputError with all problems. What it returns is consistent: every name refers to something,
+/// and every body and boundary is where it can be.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// A complete case file in SI units, materials and defaults included, that reads back to the same case bit for bit. Paths stand

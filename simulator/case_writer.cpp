@@ -49,7 +49,9 @@ class CaseWriter {
   static std::string value(const std::filesystem::path& path, Components) {
     return path.empty() ? "" : toml_text(path.generic_string());
   }
-  static std::string value(const std::vector<std::string>& texts, Components) { return toml_list(texts, toml_text); }
+  static std::string value(const std::vector<std::string>& texts, Components) {
+    return texts.empty() ? "" : toml_list(texts, toml_text);
+  }
   template <class Enum>
   requires std::is_enum_v<Enum>
   static std::string value(Enum x, Components) { return toml_text(choices<Enum>[static_cast<std::size_t>(x)]); }

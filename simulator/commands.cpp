@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "models/input/diagnostics.hpp"
 #include "models/input/material_folders.hpp"
@@ -42,18 +41,6 @@ struct Options {
   std::string until;  // a time in s, or with a unit
   std::string key;
 };
-
-/// As many threads as the user says; if he says nothing no more than pay: to wake one takes longer than a step of few points.
-/// On two threads 3840 particles and 10000 cells in the plane take as long as on one, 400 cells on a line two to twelve times
-/// as long.
-void use_threads(int threads, const Simulation& s) {
-  constexpr std::int64_t points_per_thread = 8000;
-  if (threads > 0)
-    omp_set_num_threads(threads);
-  else if (!std::getenv("OMP_NUM_THREADS"))
-    omp_set_num_threads(
-        static_cast<int>(std::clamp<std::int64_t>(count_points(s) / points_per_thread, 1, omp_get_max_threads())));
-}
 
 int tell(const RunResult& result, const Path& directory) {
   if (result.ending == Ending::nothing_left) {
@@ -134,7 +121,6 @@ int resume_run(const Options& o) {
   if (later) look_ahead(o.directory, *until);
   Simulation s = set_up_or_refuse(c);
   use_threads(o.threads, s);
-  if (later) set_end_time(o.directory, c, *until);
   catch_interrupts();
   return tell(resume(c, s, {o.directory, until}), o.directory);
 }
@@ -157,7 +143,7 @@ int check_case(const Options& o) {
   Simulation s = set_up_or_refuse(c);
   use_threads(o.threads, s);
   const DryRun dry = dry_run(c, s);
-  fmt::print("{}\n{}", c.title, c.subtitle.empty() ? "" : "  " + c.subtitle + '\n');
+  fmt::print("{}\n{}", c.title, c.below_title().empty() ? "" : "  " + c.below_title() + '\n');
   const std::string_view point = name_of_points(s);
   for (const DryRun::Points& p : dry.points) fmt::print("  {:24} {} {}\n", p.name, p.count, p.kind);
   fmt::print("  {:24} {:.1f} MB\n  {:24} {:.4g} s, limited by {}\n", "memory", dry.megabytes, "time step", dry.first_step,

@@ -279,9 +279,9 @@ struct OutputConfig {
 /// Limits on the books; a run that exceeds one stops with a report.
 struct GateConfig {
   static constexpr double usual_residual = 1e-10;
-  std::optional<double> residual;  // energy, momentum and angular momentum in no bin, part of the peak; the usual if not given
-  double numerical = 1e300;        // sum of the numerical bins over the peak kinetic energy
-  double fastest = 1e300;          // m/s: no particle is faster
+  std::optional<double> residual;   // energy, momentum and angular momentum in no bin, part of the peak; the usual if not given
+  std::optional<double> numerical;  // sum of the numerical bins over the peak kinetic energy
+  std::optional<double> fastest;    // m/s: no particle is faster
 };
 
 struct NumericsConfig {
@@ -300,7 +300,8 @@ struct NumericsConfig {
 
 struct Case {
   std::string title;
-  std::string subtitle;  // "with cell_size=1 mm": what differs from the file of this title
+  std::string subtitle;
+  std::vector<std::string> set;  // "cell_size=1 mm": what --set has changed in the file of this title
   std::filesystem::path file;
   Geometry geometry = Geometry::three_dimensional;
   double cell_size = 0.0;  // m
@@ -318,6 +319,14 @@ struct Case {
   GateConfig gates;
 
   int dimensions() const { return number_of_dimensions(geometry); }
+  /// The line below the title: its subtitle, and "with cell_size=1 mm", what differs from the file. Gates change nothing that
+  /// is computed, and are raised by hand later.
+  std::string below_title() const {
+    std::string text = subtitle;
+    for (const std::string& change : set)
+      if (!change.starts_with("gates")) text += (text.empty() ? "with " : ", ") + change;
+    return text;
+  }
 };
 
 /// Whether a plane goes where its velocity leads, and the grid with it: only if no other plane of nodes lies across its axis.

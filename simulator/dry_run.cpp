@@ -38,8 +38,6 @@ std::vector<std::string> warnings_of(const Case& c, const Simulation& s, double 
   if (c.numerics.least_step > first_step)
     warnings.push_back(fmt::format("numerics.least_step, {:.4g} s, is above the first step, {:.4g} s: the run stops at once",
                                    c.numerics.least_step, first_step));
-  if (c.output.snapshot_interval > 0.0 && c.end_time / c.output.snapshot_interval > 1000.0)
-    warnings.push_back(fmt::format("output.snapshot_interval gives {:.0f} snapshots", c.end_time / c.output.snapshot_interval));
   if (!c.bodies.empty() && fastest == 0.0 && c.loads.empty() && dot(c.gravity, c.gravity) == 0.0 &&
       std::none_of(c.boundaries.begin(), c.boundaries.end(), [](const BoundaryConfig& b) { return b.velocity.size > 0; }))
     warnings.emplace_back("nothing moves: no body has a velocity, and there is no load, no gravity and no moving boundary");
@@ -83,6 +81,11 @@ DryRun dry_run(const Case& c, Simulation& s) {
                     (1.0 - result.first_step / step) / (c.numerics.growth - 1.0);
   result.nanoseconds = 1e9 * shortest / points;
   result.hours = result.steps * points * result.nanoseconds * 1e-9 / 3600.0;
+  constexpr double day = 24.0;  // h
+  if (result.hours > day)
+    result.warnings.push_back(fmt::format(
+        "it would take about {:.2g} days; cells twice as large take {} times less, planes of symmetry{} less as well",
+        result.hours / day, 2 << c.dimensions(), c.dimensions() > 1 ? " and fewer dimensions" : ""));
   return result;
 }
 

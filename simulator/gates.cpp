@@ -105,8 +105,9 @@ void check_gates(const GateConfig& limits, const Simulation& s, const Books& boo
           magnitude(unmirrored(s, books.transfer.momentum)), part * momentum, Extensive::momentum);
   require("residual", "momentum that internal forces have made", magnitude(unmirrored(s, books.internal_force.momentum)),
           part * momentum, Extensive::momentum);
-  require("numerical", "energy in numerical books", std::abs(b.numerical()), limits.numerical * energy, Extensive::energy);
-  check_fastest(limits.fastest, s);
+  if (limits.numerical)
+    require("numerical", "energy in numerical books", std::abs(b.numerical()), *limits.numerical * energy, Extensive::energy);
+  if (limits.fastest) check_fastest(*limits.fastest, s);
 }
 
 }  // namespace brisance::simulator

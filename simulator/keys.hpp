@@ -285,8 +285,8 @@ inline constexpr auto keys<MeasureConfig> =
 
 template <>
 inline constexpr auto keys<OutputConfig> = std::tuple{
-    Key{"history_interval", &OutputConfig::history_interval, Unit::s, "time between rows of history.csv; 0: 500 rows",
-        non_negative},
+    Key{"history_interval", &OutputConfig::history_interval, Unit::s,
+        "time between rows of history.csv; 0: 500 rows to the end", non_negative},
     Key{"snapshot_interval", &OutputConfig::snapshot_interval, Unit::s, "time between snapshots; 0: only the last",
         non_negative},
     Key{"checkpoint_interval", &OutputConfig::checkpoint_interval, Unit::s, "simulated time between checkpoints; 0: none",
@@ -319,9 +319,9 @@ inline constexpr auto keys<GateConfig> = std::tuple{
         "largest part of energy, momentum and angular momentum that no book holds, over the peak; 1e-10 if not given, but "
         "for the energy of scheme ice_classic none",
         positive},
-    Key{"numerical", &GateConfig::numerical, Unit::one, "largest energy in numerical books over the peak kinetic energy",
-        positive},
-    Key{"fastest", &GateConfig::fastest, Unit::m_per_s, "no particle may be faster", positive}};
+    Key{"numerical", &GateConfig::numerical, Unit::one,
+        "largest energy in numerical books over the peak kinetic energy; no limit if not given", positive},
+    Key{"fastest", &GateConfig::fastest, Unit::m_per_s, "no particle may be faster; no limit if not given", positive}};
 
 // The whole: top level, [numerics] ---------------------------------------------------------------------------------------
 
@@ -352,6 +352,7 @@ inline constexpr auto keys<Case> =
     std::tuple{Key{"title", &Case::title, Unit::one, "one line; the name of the file if not given"},
                Key{"subtitle", &Case::subtitle, Unit::one,
                    "stands below the title in summary and figures; a run adds what --set has changed"},
+               Key{"set", &Case::set, Unit::one, "what --set has changed: a run writes it, and tells it below the title"},
                Key{"geometry", &Case::geometry, Unit::one,
                    "plane: x, y; axisymmetric: x is the radius, y along the axis; three_dimensional: x, y, z; of gas "
                    "alone: planar_1d: x; cylindrical_1d, spherical_1d: x is the radius",

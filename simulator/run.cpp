@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <new>
 
@@ -71,18 +72,19 @@ std::string why_rejected(const Simulation& s, double dt) {
 class Run {
  public:
   Run(const Case& c, Simulation& s, const RunOptions& options)
-      : case_(c),
+      : case_(lasting(c, options.until.value_or(0.0))),
         s_(s),
         options_(options),
         end_(options.until.value_or(c.end_time)),
+        lasts_longer_(case_.end_time > c.end_time),
         log_(options.directory / "log.txt"),
-        gauges_(c, s),
-        measures_(c, s),
-        row_interval_(row_interval(c)) {}
+        gauges_(case_, s),
+        measures_(case_, s),
+        row_interval_(row_interval(case_)) {}
 
   RunResult begin() {
     const int threads = omp_get_max_threads();
-    const std::string subtitle = case_.subtitle.empty() ? "" : ", " + case_.subtitle;
+    const std::string subtitle = case_.below_title().empty() ? "" : ", " + case_.below_title();
     log_.line(fmt::format("{}{}: {} {}s, {} thread{}", case_.title, subtitle, count_points(s_), name_of_points(s_), threads,
                           threads == 1 ? "" : "s"));
     for (const std::string& warning : options_.warnings) log_.line("warning: " + warning);
@@ -101,13 +103,17 @@ class Run {
 
   RunResult go_on() {
     if (!has_checkpoint(options_.directory)) {
+      keep_later_end();
       log_.line("killed before its first checkpoint: starts again");
       return begin();
     }
     const Restored restored = restore_newest(options_.directory, s_, [&](const std::string& trouble) { log_.line(trouble); });
     const std::optional<ToldEnding> told = read_ending(options_.directory / "summary.json");
     const bool had_failed = told && told->ending == word_of(Ending::failed);
-    if (at_end() && told && !had_failed) return nothing_left();
+    if (had_failed && told->message.starts_with("gate ")) gate_time_ = told->time;
+    const bool past_end = s_.time > end_ && !at(end_);
+    if (past_end || (at(end_) && told && !had_failed)) return nothing_left();
+    keep_later_end();
     log_.set_wall_time_before(restored.progress.wall_time);
     std::filesystem::remove(options_.directory / "summary.json");  // it told of the part before
     log_.line(fmt::format("goes on from {}, step {}, time {:.6g} s", restored.file.string(), s_.step, s_.time));
@@ -179,13 +185,18 @@ class Run {
            (kept.empty() ? "" : "\n" + kept);
   }
 
+  /// What goes on next ends at the later time, too.
+  void keep_later_end() {
+    if (lasts_longer_) replace_case(options_.directory, case_);
+  }
+
   RunResult nothing_left() {
     RunResult result;
     result.ending = Ending::nothing_left;
     result.message = fmt::format(
-        "{}: nothing was left to do: the run has come to {:.6g} s, and its end is at {:.6g} s{}. To go on, name a later time: "
-        "brisance resume {} --until \"{:.6g} s\"",
-        options_.directory.string(), s_.time, end_, options_.until ? " (--until)" : "", options_.directory.string(),
+        "{0}: nothing was left to do: the run has come to {1:.6g} s, and {2} is at {3:.6g} s{4}. To go on, name a later time: "
+        "brisance resume {0} --until \"{5:.6g} s\"",
+        options_.directory.string(), s_.time, options_.until ? "--until" : "its end", end_, at(end_) ? "" : ", before that",
         2.0 * s_.time);
     return result;
   }
@@ -201,7 +212,8 @@ class Run {
       within_step_ = true;
       advance_one_step();
       within_step_ = false;
-      if (count(s_.time, row_interval_) > count(before, row_interval_)) add_row();
+      const bool gate_is_due = before < gate_time_ && gate_time_ <= s_.time;
+      if (count(s_.time, row_interval_) > count(before, row_interval_) || gate_is_due) add_row();
       if (count(s_.time, case_.output.snapshot_interval) > count(before, case_.output.snapshot_interval)) add_snapshot();
       if (checkpoint_is_due(before)) add_checkpoint();
       show_progress();
@@ -214,10 +226,11 @@ class Run {
   }
 
   /// Times are sums of steps: the last one may miss the end by rounding.
-  bool at_end() const {
+  bool at(double time) const {
     constexpr double rounding = 1e-12;
-    return end_ - s_.time <= rounding * end_;
+    return std::abs(time - s_.time) <= rounding * time;
   }
+  bool at_end() const { return s_.time > end_ || at(end_); }
 
   void advance_one_step() {
     StepSize size = next_step(s_, case_.numerics, end_);
@@ -312,20 +325,22 @@ class Run {
     const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
     Summary& summary = result.summary;
     summary.resumed_after = gates_passed(options_.directory);
-    summary.title = case_.title, summary.subtitle = case_.subtitle, summary.ending = word_of(result.ending),
+    summary.title = case_.title, summary.subtitle = case_.below_title(), summary.ending = word_of(result.ending),
     summary.message = result.message;
     summary.time = s_.time, summary.steps = s_.step, summary.particles = count_points(s_);
     summary.wall_time = log_.wall_time(), summary.threads = omp_get_max_threads();
     summary.particle_steps_per_second = static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds;
     summary.books = books_of(s_);
     summary.measures = measures_.read(s_), summary.not_gated = not_gated(case_.gates, s_);
+    summary.other_experiment = other_experiment(case_);
     if (history_) summary.peaks = peaks_of(read_gauges(case_, options_.directory));
   }
 
-  const Case& case_;
+  const Case case_;
   Simulation& s_;
   RunOptions options_;
   double end_;
+  bool lasts_longer_;  // than the case in the directory
   Log log_;
   Gauges gauges_;
   Measures measures_;
@@ -334,6 +349,7 @@ class Run {
   std::vector<double> snapshot_times_;
   Path last_checkpoint_;
   double row_time_ = -1.0;
+  double gate_time_ = -1.0;  // when a gate had ended the run, perhaps at a row of its own: there it is judged again
   bool interrupted_ = false;
   bool within_step_ = false;
   int rejections_ = 0;
@@ -356,6 +372,17 @@ std::string_view name_of_points(const Simulation& s) {
   return s.gas.empty() ? "particle" : "cell";
 }
 
+void use_threads(int threads, const Simulation& s) {
+  // To wake one takes longer than a step of few points. On two threads 3840 particles and 10000 cells in the plane take as long
+  // as on one, 400 cells on a line two to twelve times as long.
+  constexpr std::int64_t points_per_thread = 8000;
+  if (threads > 0)
+    omp_set_num_threads(threads);
+  else if (!std::getenv("OMP_NUM_THREADS"))
+    omp_set_num_threads(
+        static_cast<int>(std::clamp<std::int64_t>(count_points(s) / points_per_thread, 1, omp_get_num_procs())));
+}
+
 std::string word_of(Ending ending) {
   constexpr std::array words = {"done", "failed", "interrupted", "done"};
   return words[static_cast<std::size_t>(ending)];
@@ -376,7 +403,7 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
   std::vector<std::string> troubles;
   const Restored restored = restore_newest(directory, s, [&](const std::string& trouble) { troubles.push_back(trouble); });
   Summary summary{c.title,
-                  c.subtitle,
+                  c.below_title(),
                   ending + ", as of " + restored.file.filename().string(),
                   "",
                   s.time,
@@ -389,7 +416,8 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   measures.read(s),
                   {},
                   not_gated(c.gates, s),
-                  gates_passed(directory)};
+                  gates_passed(directory),
+                  other_experiment(c)};
   for (auto& found :
        {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory, of)})
     troubles.insert(troubles.end(), found.begin(), found.end());

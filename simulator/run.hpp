@@ -36,6 +36,8 @@ struct RunResult {
 std::int64_t count_points(const Simulation& s);
 std::string_view name_of_points(const Simulation& s);
 
+/// As many threads as the user says; if he says nothing (0, and no OMP_NUM_THREADS) no more than pay.
+void use_threads(int threads, const Simulation& s);
 /// Runs a simulation that has been set up from the case.
 RunResult run(const Case& c, Simulation& s, const RunOptions& options);
 /// Goes on from the newest checkpoint in the directory; `s` has been set up from the case and gets its state. If it has come to

@@ -146,6 +146,12 @@ std::vector<std::string> set_up_warnings(const Case& c) {
                       "its direction and at end_time",
                       body.name, speed, c.end_time));
   }
+  const auto too_many = [&](std::string_view key, double interval, std::string_view what, double most) {
+    if (interval > 0.0 && c.end_time / interval > most)
+      warnings.push_back(fmt::format("output.{} gives {:.3g} {}", key, c.end_time / interval, what));
+  };
+  too_many("snapshot_interval", c.output.snapshot_interval, "snapshots", 1e3);
+  too_many("history_interval", c.output.history_interval, "rows of history.csv", 1e5);
   if (!c.gas) return warnings;
   for (const ReactionConfig& reaction : c.gas->reactions)
     if (const auto reason = what_does_not_start(c, reaction))

@@ -9,7 +9,7 @@
 namespace brisance::simulator {
 
 /// One sentence each: bodies that start molten, moving ones with nothing in their way, reactions that nothing starts, bodies in
-/// a gas that it leaks through or that it does not meet.
+/// a gas that it leaks through or that it does not meet, more output than anyone reads.
 std::vector<std::string> set_up_warnings(const Case& c);
 
 }  // namespace brisance::simulator

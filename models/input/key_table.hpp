@@ -94,6 +94,7 @@ class KeyReader {
   template <class K>
   void read_value(TableReader& in, const K& key, std::string& value) {
     value = in.text(key.name, key.meaning);
+    if (value.find_first_of("\r\n") != std::string::npos) in.problem(key.name, "the text has a line break; give one line");
   }
   template <class K>
   void read_value(TableReader& in, const K& key, std::vector<std::string>& value) {

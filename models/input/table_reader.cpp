@@ -73,6 +73,13 @@ void TableReader::add_problems(std::string_view key, std::span<const Problem> pr
   if (!problems.empty()) owner_->refused_.push_back(path_of(key));
 }
 
+void TableReader::problem_of_file(std::string_view key, std::span<const Problem> problems) {
+  if (problems.size() == 1 && problems.front().line == 0)
+    return problem(key, "its file cannot be used: " + problems.front().text());
+  problem(key, "its file cannot be used");
+  add_problems(key, problems);
+}
+
 void TableReader::ignore_rest() {
   if (table_) table_->opened = false;
 }
@@ -308,25 +315,25 @@ const TomlList* TableReader::list_in(const TomlNode& node, const std::string& pa
     wrong_type(node, path, allowed);
     return nullptr;
   }
-  if (list->size() >= length.least && list->size() <= length.most) return list;
-  report(node.place, path,
-         (list->empty() ? std::string("the list is empty")
-                        : "the list has " + std::to_string(list->size()) + (list->size() == 1 ? " element" : " elements")) +
-             "; give " + allowed);
-  return nullptr;
+  if (list->size() < length.least || list->size() > length.most)
+    report(node.place, path,
+           (list->empty() ? std::string("the list is empty")
+                          : "the list has " + std::to_string(list->size()) + (list->size() == 1 ? " element" : " elements")) +
+               "; give " + allowed);
+  return list;
 }
 
 std::vector<double> TableReader::numbers_in(const TomlNode& node, const std::string& path, const Quantity& quantity,
                                             Length length) {
   const TomlList* const list = list_in(node, path, length, allowed_for(quantity));
-  std::vector<double> result(list ? list->size() : length.least, 0.0);
+  std::vector<double> result(std::clamp(list ? list->size() : 0, length.least, length.most), 0.0);
   std::size_t reported = 0;
   for (std::size_t i = 0; list && i < list->size() && reported < most_elements_reported; ++i) {
     const auto value = number_in((*list)[i], joined(path, std::to_string(i)), quantity);
-    if (value)
-      result[i] = *value;
-    else
+    if (!value)
       ++reported;
+    else if (i < result.size())
+      result[i] = *value;
   }
   return result;
 }
@@ -353,7 +360,7 @@ std::vector<std::vector<double>> TableReader::rows(std::string_view key, const Q
   std::vector<std::vector<double>> result;
   for (std::size_t i = 0; i < list->size(); ++i)
     result.push_back(numbers_in((*list)[i], joined(path_of(key), std::to_string(i)), quantity, exactly(columns)));
-  for (auto& row : result) row.resize(columns, 0.0);
+  result.resize(std::clamp(result.size(), rows.least, rows.most), std::vector<double>(columns, 0.0));
   return result;
 }
 
@@ -443,12 +450,14 @@ Table TableReader::piecewise(std::string_view key, const Quantity& value, std::s
                                std::string(abscissa_name) + " are required, " + std::to_string(x.size()));
     return result;
   }
-  for (std::size_t i = 1; i < x.size(); ++i) {
+  std::size_t reported = 0;
+  for (std::size_t i = 1; i < x.size() && reported < most_elements_reported; ++i) {
     if (x[i] > x[i - 1]) continue;
     knots.problem(abscissa_name, "element " + std::to_string(i) + " is " + shortest_text(x[i]) + " after " +
                                      shortest_text(x[i - 1]) + "; each element must be larger than the one before");
-    return result;
+    ++reported;
   }
+  if (reported > 0) return result;
   result.size = static_cast<int>(x.size());
   std::copy(x.begin(), x.end(), result.x.begin());
   std::copy(y.begin(), y.end(), result.y.begin());

@@ -115,6 +115,8 @@ class TableReader {
   void problem(std::string what);
   /// Adds the problems of another file that this key names.
   void add_problems(std::string_view key, std::span<const Problem> problems);
+  /// The same, and says at the key that its file cannot be used; why in the same line if that has no place in the file.
+  void problem_of_file(std::string_view key, std::span<const Problem> problems);
   /// Do not report keys of this table that nobody asked for: what they mean is unknown since something else went wrong.
   void ignore_rest();
   /// How many problems have been reported in this file so far.
@@ -148,6 +150,7 @@ class TableReader {
   NumberOrText number_or_text_in(const TomlNode& node, const std::string& path, const Quantity& quantity);
   std::vector<double> numbers_in(const TomlNode& node, const std::string& path, const Quantity& quantity, Length length);
   std::vector<std::string> texts_in(const TomlNode& node, const std::string& path, Length length);
+  /// The elements are judged even where there are too few or too many of them, which is reported.
   const TomlList* list_in(const TomlNode& node, const std::string& path, Length length, const std::string& elements);
   TableReader open(TomlNode& node, std::string path);
 

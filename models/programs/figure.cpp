@@ -78,6 +78,10 @@ std::optional<std::array<double, 2>> level_range(const std::array<double, 2>& of
   const double extent = size > 0.0 ? margin * size : 1.0;
   return {{low - extent, high + extent}};
 }
+/// The same of a scale of colours: nothing but zeros has no place in its middle, for most fields are never negative.
+std::optional<std::array<double, 2>> level_scale(const std::array<double, 2>& of_values) {
+  return of_values[0] == 0.0 && of_values[1] == 0.0 ? std::array{0.0, 1.0} : level_range(of_values);
+}
 
 std::array<double, 2> extremes(const std::vector<Curve>& curves, std::vector<double> Curve::*values) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -152,14 +156,16 @@ void draw_panel(Gnuplot& plot, const Panel& panel) {
   const std::array<double, 2> heights = panel.y_range.value_or(extremes(panel.curves, &Curve::y));
   const auto level = panel.logarithmic_y ? std::nullopt : level_range(heights);
   const auto height = level ? level : panel.y_range;
-  plot << "set xrange " << range(panel.x_range) << "\nset yrange " << range(height) << "\n";
+  const std::array<double, 2> places = panel.x_range.value_or(extremes(panel.curves, &Curve::x));
+  const auto width = places[0] == places[1] && !panel.logarithmic_x ? level_range(places) : panel.x_range;
+  plot << "set xrange " << range(width) << "\nset yrange " << range(height) << "\n";
   plot << (panel.logarithmic_x ? "set logscale x\nset format x '10^{%L}'\n" : "unset logscale x\nset format x '%g'\n");
   plot << (panel.logarithmic_y ? "set logscale y\n" : "unset logscale y\n");
   plot << fmt::format("set xtics {} font ',10'\n", tic_step(panel));
   plot << (panel.equal_axes ? "set size ratio -1\n" : "set size noratio\n");
   const bool shaded = std::any_of(panel.curves.begin(), panel.curves.end(), is_shaded);
   const std::array<double, 2> values = panel.colour_range.value_or(extremes(panel.curves, &Curve::values));
-  std::optional<std::array<double, 2>> colours = level_range(values);
+  std::optional<std::array<double, 2>> colours = level_scale(values);
   if ((shaded || panel.colour_range) && !colours)  // shades need to know it
     colours = std::isfinite(values[0]) && std::isfinite(values[1]) ? values : std::array{0.0, 1.0};
   plot << "set cbrange " << range(colours) << "\n";
@@ -242,14 +248,15 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
   constexpr double largest_font = 13.0, smallest_font = 8.0, width_of_letter = 0.69;  // on average, of the font's size
   const double title_font =
       std::clamp(width / (width_of_letter * static_cast<double>(figure.title.size())), smallest_font, largest_font);
-  constexpr double subtitle_font = 10.0;
-  const auto most_letters = static_cast<std::size_t>(width / (width_of_letter * subtitle_font));
-  std::string subtitle = figure.subtitle;
-  if (subtitle.size() > most_letters) {
+  const double subtitle_font = std::min(10.0, title_font);  // lines are as far apart as the title's letters are high
+  const auto cut_to_width = [&](const std::string& text, double font) {
+    const auto most_letters = static_cast<std::size_t>(std::lround(width / (width_of_letter * font)));
+    if (text.size() <= most_letters) return text;
     std::size_t end = most_letters - 3;
-    while (end > 0 && (static_cast<unsigned char>(subtitle[end]) & 0xc0) == 0x80) --end;  // not within a letter of UTF-8
-    subtitle = subtitle.substr(0, end) + "...";
-  }
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // not within a letter of UTF-8
+    return text.substr(0, end) + "...";
+  };
+  const std::string title = cut_to_width(figure.title, title_font), subtitle = cut_to_width(figure.subtitle, subtitle_font);
   const double height = std::ceil(std::accumulate(row_heights.begin(), row_heights.end(), 0.0) + title_height);
   replace_file(path, [&](const std::filesystem::path& temporary) {
     {
@@ -261,8 +268,8 @@ void draw(const Figure& figure, const std::filesystem::path& path) {
       plot << "set encoding utf8\nset output " << quoted_text(temporary.string()) << "\n";
       plot << "set border 3 lw 1.2\nset tics nomirror out scale 0.6 font ',10'\nset grid lc rgb '#e4e4e4' lw 0.6\n";
       const std::string below =
-          subtitle.empty() ? "" : fmt::format(".\"\\n{{/={} \".{}.\"}}\"", subtitle_font, plain(subtitle));
-      plot << fmt::format("set multiplot title {}{} font ',{:.3g}'\n", plain(figure.title), below, title_font);
+          subtitle.empty() ? "" : fmt::format(".\"\\n{{/={:.3g} \".{}.\"}}\"", subtitle_font, plain(subtitle));
+      plot << fmt::format("set multiplot title {}{} font ',{:.3g}'\n", plain(title), below, title_font);
       for (std::size_t i = 0; i < cells.size(); ++i) {
         const auto row = row_heights.begin() + cells[i].row;
         const double above = std::accumulate(row_heights.begin(), row + 1, static_cast<double>(title_height));

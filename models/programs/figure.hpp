@@ -47,7 +47,7 @@ struct Figure {
   std::vector<Panel> panels;
   int columns = 1;
   int panel_width = 520, panel_height = 390;  // pixels
-  std::string subtitle{};                     // cut where it is longer than the figure is wide
+  std::string subtitle{};                     // cut, as the title, where it is longer than the figure is wide
 };
 
 /// Draws a figure; the ending of the path, .png or .svg, chooses the format. Throws std::runtime_error when gnuplot does not

@@ -146,8 +146,7 @@ std::optional<StateProfile> check_profile(TableReader& in, const ProfileConfig& 
     if (!read.pressure.empty()) elsewhere.pressure = "the profile";
     return read;
   } catch (const InputError& error) {
-    in.problem("profile", "its file cannot be used");
-    in.add_problems("profile", error.problems());
+    in.problem_of_file("profile", error.problems());
     return unknown();
   }
 }
@@ -221,13 +220,25 @@ bool is_zero(const VaryingVector& velocity) {
   return !velocity.varies() && velocity.numbers() == Vector{};
 }
 
-/// Reports the first place of some, in the middles of a lattice of cells, where a formula makes no state at a time (s). Of very
-/// many cells it looks at some alone. Returns whether there is one.
-bool check_formulas_at(TableReader& in, const GasStateConfig& state, const Case& c, std::array<double, 3> first,
-                       std::array<double, 3> last, const Shape* shape, double time = 0.0, double most_places = 1e5) {
-  std::optional<Fluid> fluid;
-  if (const FluidConfig* given = find_fluid(in, c, state.fluid))
-    fluid = {given->name, given->material.material.equation_of_state};
+/// Of what a state is, as far as it is sound: no fluid where only values can be judged.
+std::optional<Fluid> fluid_of_state(const TableReader& in, const GasStateConfig& state, const Case& c) {
+  const FluidConfig* fluid = find_fluid(in, c, state.fluid);
+  const bool complete = state.pressure && state.density.has_value() != state.temperature.has_value() &&
+                        in.sound({"density", "temperature", "pressure"});
+  return fluid && complete ? std::optional(Fluid{fluid->name, fluid->material.material.equation_of_state}) : std::nullopt;
+}
+/// Reports of each key the first place of some, in the middles of a lattice of cells, where its formula makes no state at a
+/// time (s). Of very many cells it looks at some alone. Returns whether there is one.
+bool check_formulas_at(TableReader& in, const GasStateConfig& state, bool pressure_alone, const Case& c,
+                       std::array<double, 3> first, std::array<double, 3> last, const Shape* shape, double time = 0.0,
+                       double most_places = 1e5) {
+  const std::optional<Fluid> fluid = pressure_alone ? std::nullopt : fluid_of_state(in, state, c);
+  std::vector<std::string> refused;
+  const auto refuse = [&](const std::string& key, const std::string& what) {
+    if (std::find(refused.begin(), refused.end(), key) != refused.end()) return;
+    in.problem(key, what);
+    refused.push_back(key);
+  };
   std::array<double, 3> step{1.0, 1.0, 1.0};  // cells; no number of cells is too large for them
   const double dimensions = c.dimensions();
   for (std::size_t a = 0; a < dimensions_of(c); ++a)
@@ -239,14 +250,15 @@ bool check_formulas_at(TableReader& in, const GasStateConfig& state, const Case&
         const std::array<double, 3> index{i, j, k};
         for (std::size_t a = 0; a < dimensions_of(c); ++a) x[a] = (index[a] + 0.5) * c.cell_size;
         if (shape && !contains(*shape, x)) continue;
+        static_cast<void>(values_at(state, pressure_alone, x, time, c.dimensions(), refuse));
+        if (!fluid || !refused.empty()) continue;
         try {
-          static_cast<void>(state_at(state, 0, fluid ? &*fluid : nullptr, x, time, c.dimensions()));
+          static_cast<void>(state_at(state, 0, &*fluid, x, time, c.dimensions()));
         } catch (const FormulaError& error) {
-          in.problem(error.key, error.what());
-          return true;
+          refuse(error.key, error.what());
         }
       }
-  return false;
+  return !refused.empty();
 }
 /// The cells of the box; what is wrong with it is reported elsewhere.
 bool find_cells(const TableReader& in, const Case& c, std::array<double, 3>& first, std::array<double, 3>& last) {
@@ -260,25 +272,25 @@ bool find_cells(const TableReader& in, const Case& c, std::array<double, 3>& fir
 }
 void check_formulas(TableReader& in, const FillConfig& fill, const Case& c) {
   std::array<double, 3> first, last;
-  if (varies(fill) && !fill.profile && !fill.energy && find_fluid(in, c, fill.fluid) && find_cells(in, c, first, last))
-    check_formulas_at(in, fill, c, first, last, fill.shape.get());
+  if (varies(fill) && !fill.profile && !fill.energy && find_cells(in, c, first, last))
+    check_formulas_at(in, fill, false, c, first, last, fill.shape.get());
 }
 void check_formulas(TableReader& in, const EdgeConfig& edge, const Case& c) {
   std::array<double, 3> first, last;
   const double cells = c.gas->bodies.empty() ? ring : Window::depth;  // beyond the side: with bodies its neighbourhoods as well
   const std::size_t axis = static_cast<std::size_t>(edge.side) / 2;
   if (!varies(edge) || !find_cells(in, c, first, last) || axis >= dimensions_of(c)) return;
-  if (edge.kind != EdgeKind::pressure && !find_fluid(in, c, edge.fluid)) return;
+  const bool pressure_alone = in.sound({"kind"}) && edge.kind == EdgeKind::pressure;
   if (static_cast<std::size_t>(edge.side) % 2 == 0)
     last[axis] = first[axis], first[axis] -= cells;
   else
     first[axis] = last[axis], last[axis] += cells;
-  if (check_formulas_at(in, edge, c, first, last, nullptr)) return;
+  if (check_formulas_at(in, edge, pressure_alone, c, first, last, nullptr)) return;
   // A formula that is fine at these times may still fail between them, and ends the run then.
   constexpr int times = 100;
   constexpr double places = 1000.0;  // so that all of it takes a part of a second
   for (int n = 1; n <= times; ++n)
-    if (check_formulas_at(in, edge, c, first, last, nullptr, c.end_time * n / times, places)) return;
+    if (check_formulas_at(in, edge, pressure_alone, c, first, last, nullptr, c.end_time * n / times, places)) return;
 }
 
 }  // namespace
@@ -301,10 +313,8 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
     elsewhere.pressure = "the energy", elsewhere.needs_density = true;
   }
   if (profile && varies(fill)) in.problem("profile", "a state varies by a profile or by formulas; give one of the two");
-  const std::size_t before = in.problem_count();
   check_gas_state(in, fill, c, elsewhere);
-  if (in.problem_count() == before && in.sound({"shape", "density", "temperature", "pressure", "velocity"}))
-    check_formulas(in, fill, c);
+  if (in.sound({"shape"})) check_formulas(in, fill, c);
   if (profile && !fill.energy && !varies(fill)) check_rows(in, fill, *profile, c);
   if (others.empty() && in.has("shape")) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
   if (!others.empty() && !in.has("shape") && !fill.energy)
@@ -330,11 +340,12 @@ void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& oth
   if (!in.sound({"kind"})) {  // what is wrong whatever the kind is meant to be
     if (in.has("fluid") || c.gas->fluids.size() == 1) check_fluid_of(in, edge, c);
     if (edge.density && edge.temperature) in.problem(two_densities);
-    return check_existence(in, edge, c);
+    check_existence(in, edge, c);
+    if (side_known) check_formulas(in, edge, c);
+    return;
   }
   // A velocity of zero says nothing: a case that a run has written holds one at every edge.
   const bool more = in.has("density") || in.has("temperature") || !is_zero(edge.velocity) || in.has("fluid");
-  const std::size_t before = in.problem_count();
   if (edge.kind == EdgeKind::inflow || edge.kind == EdgeKind::non_reflecting) {
     check_gas_state(in, edge, c);
   } else if (edge.kind == EdgeKind::pressure) {
@@ -351,8 +362,9 @@ void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& oth
   } else if (more || in.has("pressure")) {
     in.problem("a state would be ignored: nothing comes through a wall or from beyond a period");
   }
-  if (in.problem_count() == before && in.sound({"side", "density", "temperature", "pressure", "velocity"}))
-    check_formulas(in, edge, c);
+  const bool is_judged =
+      edge.kind == EdgeKind::inflow || edge.kind == EdgeKind::non_reflecting || edge.kind == EdgeKind::pressure;
+  if (side_known && is_judged) check_formulas(in, edge, c);
 }
 
 void check(TableReader&, IgnitionConfig&, const std::vector<IgnitionConfig>&, const Case&) {}

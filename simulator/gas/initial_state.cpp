@@ -70,33 +70,44 @@ std::string why_no_state(const std::string& fluid, const EquationOfState& law, d
   return "";
 }
 
-Filling state_at(const GasStateConfig& state, int number, const Fluid* fluid, const Vector& position, double time,
-                 int dimensions) {
-  const auto here = [&] {
-    return fmt::format("at ({:.6g}) m, t = {:.6g} s",
-                       fmt::join(std::span(position).first(static_cast<std::size_t>(dimensions)), ", "), time);
-  };
+namespace {
+
+std::string place_in_words(const Vector& position, double time, int dimensions) {
+  return fmt::format("at ({:.6g}) m, t = {:.6g} s",
+                     fmt::join(std::span(position).first(static_cast<std::size_t>(dimensions)), ", "), time);
+}
+
+}  // namespace
+
+Filling values_at(const GasStateConfig& state, bool pressure_alone, const Vector& position, double time, int dimensions,
+                  const Refusal& refuse) {
   const auto value = [&](const char* key, const Varying& given, const Interval& interval) {
     const double x = given.at(position, time);
     if (given.formula && !(std::isfinite(x) && interval.contains(x)))
-      throw FormulaError(
-          key, fmt::format("{} is {:.6g} {}; it must be {}", in_quotes(given.formula->text()), x, here(), describe(interval)));
+      refuse(key, fmt::format("{} is {:.6g} {}; it must be {}", in_quotes(given.formula->text()), x,
+                              place_in_words(position, time, dimensions), describe(interval)));
     return x;
   };
   Filling filling;
-  filling.fluid = number;
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimensions); ++a)
     filling.velocity[a] = value("velocity", state.velocity.components[a], any_value);
-  if (state.pressure) filling.pressure = value("pressure", *state.pressure, fluid ? any_value : non_negative);
-  if (!fluid) return filling;
+  if (state.pressure) filling.pressure = value("pressure", *state.pressure, pressure_alone ? non_negative : any_value);
   if (state.density) filling.density = value("density", *state.density, positive);
-  if (state.temperature) {
-    filling.temperature = value("temperature", *state.temperature, positive);
+  if (state.temperature) filling.temperature = value("temperature", *state.temperature, positive);
+  return filling;
+}
+
+Filling state_at(const GasStateConfig& state, int number, const Fluid* fluid, const Vector& position, double time,
+                 int dimensions) {
+  Filling filling = values_at(state, !fluid, position, time, dimensions,
+                              [](const std::string& key, const std::string& what) { throw FormulaError(key, what); });
+  filling.fluid = number;
+  if (!fluid) return filling;
+  if (state.temperature)
     filling.density = equation_of_state::density_at(fluid->equation_of_state, filling.pressure, filling.temperature);
-  }
   const std::string why =
       why_no_state(fluid->name, fluid->equation_of_state, filling.pressure, filling.density, filling.temperature);
-  if (!why.empty()) throw FormulaError("pressure", here() + ": " + why);
+  if (!why.empty()) throw FormulaError("pressure", place_in_words(position, time, dimensions) + ": " + why);
   return filling;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What the fills of a case say about a cell: which of them hold how much of it, and in what state.
 
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -74,6 +75,11 @@ struct FormulaError : std::runtime_error {
   FormulaError(std::string at_key, const std::string& what) : std::runtime_error(what), key(std::move(at_key)) {}
   std::string key;
 };
+/// What the values of a state are at a place and a time (s). Calls refuse(key, what) for each formula that comes to what no gas
+/// can have; `pressure_alone`: that of an edge beyond which nothing else counts.
+using Refusal = std::function<void(const std::string& key, const std::string& what)>;
+Filling values_at(const GasStateConfig& state, bool pressure_alone, const Vector& position, double time, int dimensions,
+                  const Refusal& refuse);
 /// The state at a place and a time (s), of the fluid with this number; `fluid` is null where only a pressure counts. Throws
 /// FormulaError.
 Filling state_at(const GasStateConfig& state, int number, const Fluid* fluid, const Vector& position, double time,

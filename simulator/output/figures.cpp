@@ -136,6 +136,11 @@ void let_all_be_seen(std::vector<Curve>& curves) {
   }
 }
 
+/// From 0 to the last time, s; of a run that has not begun some time after.
+std::array<double, 2> from_the_start(double last, const Scale& times) {
+  return {0.0, last > 0.0 ? times.per_si * last : 1.0};
+}
+
 /// Curves of a quantity against time. Those that would lie on the axis, and what is below `noise`, are not drawn; the title
 /// tells the largest values of the largest of them, unless they are zero all the time.
 Panel against_time(const std::string& title, std::string_view quantity, const std::vector<double>& time,
@@ -156,7 +161,7 @@ Panel against_time(const std::string& title, std::string_view quantity, const st
     curve.x = scaled(time, times.per_si), curve.y = scaled(std::move(curve.y), scale.per_si);
     panel.curves.push_back(std::move(curve));
   }
-  let_all_be_seen(panel.curves);
+  if (time.size() > 1) let_all_be_seen(panel.curves);
   if (panel.curves.empty() && !curves.empty())  // nothing happens
     panel.curves.push_back({curves.back().title, scaled(time, times.per_si), std::vector<double>(time.size(), 0.0)});
   constexpr std::size_t most_told = 2;
@@ -167,14 +172,16 @@ Panel against_time(const std::string& title, std::string_view quantity, const st
     panel.title += (k > 0 ? ", " : title.empty() ? "not drawn: " : "; not drawn: ") + small[k].second;
   if (small.size() > told) panel.title += fmt::format(" and {} smaller", small.size() - told);
   panel.x_label = label("time", times), panel.y_label = label(quantity, scale);
-  if (largest(time) > 0.0) panel.x_range = {{0.0, times.per_si * largest(time)}};
+  panel.x_range = from_the_start(largest(time), times);
+  if (time.size() == 1)  // a line of one place is not to be seen
+    for (Curve& curve : panel.curves) curve.mark = Mark::dots;
   legend_beside(panel);
   return panel;
 }
 
 /// Every figure says what its case is.
 void draw(const Case& c, Figure figure, const Path& path) {
-  figure.subtitle = c.subtitle;
+  figure.subtitle = c.below_title();
   brisance::draw(figure, path);
 }
 
@@ -193,12 +200,13 @@ void draw_energy(const Case& c, const Path& directory) {
     return Curve{title, {}, history.numbers(column, unit), Mark::line, colour};
   };
   const std::vector<double> time = history.numbers("time", Unit::s);
-  Panel physical = against_time("Energy", "energy", time,
-                                {curve("kinetic_energy", "kinetic", 0), curve("plastic_work", "plastic work", 2),
-                                 curve("external_work", "work of loads", 3), curve("boundary_work", "work of boundaries", 4),
-                                 curve("friction_work", "friction", 6), curve("viscous_work", "artificial viscosity", 5),
-                                 curve("outflow_energy", "outflow", 7), curve("internal_energy_change", "internal, change", 1)},
-                                unit);
+  Panel physical =
+      against_time("Energy", "energy", time,
+                   {curve("kinetic_energy", "kinetic", 0), curve("plastic_work", "plastic work", 2),
+                    curve("external_work", "work of loads", 3), curve("boundary_work", "work of boundaries", 4),
+                    curve("friction_work", "friction", 6), curve("viscous_work", "artificial viscosity", 5),
+                    curve("outflow_energy", "outflow", 7), curve("internal_energy_change", "change of internal", 1)},
+                   unit);
   Panel numerical = against_time("Numerical books", "energy", time,
                                  {curve("transfer_energy", "transfer", 0), curve("filter_energy", "filter", 1),
                                   curve("filter_heat", "heat of the filter", 3),
@@ -227,7 +235,7 @@ void draw_gas_energy(const Case& c, const Simulation& s, const Path& directory) 
   for (const gas::MovingBody& body : s.gas.bodies.all) add("work of " + body.name, body.name + "_work", -1.0);
   if (s.gas.gravity != Vector{}) add("work of gravity", "gravity_energy");
   add("in no book", "gas_residual_energy");
-  curves.push_back({"total, change", {}, std::move(change)});
+  curves.push_back({"change of the total", {}, std::move(change)});
   Panel panel = against_time("Energy of the gas", "energy", time, std::move(curves), unit, noise);
   colour_in_order(panel);
   draw(c, {c.title, {std::move(panel)}, 1, 900, 380}, directory / "energy.png");
@@ -264,7 +272,7 @@ void draw_gas_bodies(const Case& c, const Simulation& s, const Path& directory) 
     for (const gas::MovingBody& body : s.gas.bodies.all)
       for (const char axis : std::string_view("xyz"))
         if (const std::string column = fmt::format("{}_{}_{}", body.name, quantity, axis); history.has(column))
-          curves.push_back({fmt::format("{}, {}", body.name, axis), {}, known(history.numbers(column, unit))});
+          curves.push_back({fmt::format("{} along {}", body.name, axis), {}, known(history.numbers(column, unit))});
     const bool rests = std::all_of(curves.begin(), curves.end(), [](const Curve& curve) { return largest(curve.y) == 0.0; });
     if (rests && quantity != "force") continue;
     figure.panels.push_back(against_time("", quantity, known(time), std::move(curves), unit, noise));
@@ -309,7 +317,7 @@ void draw_gauges(const Case& c, const Path& directory) {
     const Scale scale = scale_for(shown.front()->unit, most);
     Panel panel;
     panel.x_label = label("time", times), panel.y_label = label(in_words(field), scale);
-    if (end > 0.0) panel.x_range = {{0.0, times.per_si * end}};
+    panel.x_range = from_the_start(end, times);
     if (const std::size_t count = shown.size(); count > palette_size) {
       panel.title = fmt::format("{} of {}", palette_size, count);
       std::vector<const GaugeSeries*> evenly;
@@ -319,8 +327,8 @@ void draw_gauges(const Case& c, const Path& directory) {
     legend_beside(panel);
     int colour = 0;
     for (const GaugeSeries* s : shown)
-      panel.curves.push_back(
-          {in_words(s->label), scaled(s->time, times.per_si), scaled(s->value, scale.per_si), Mark::line, colour++});
+      panel.curves.push_back({in_words(s->label), scaled(s->time, times.per_si), scaled(s->value, scale.per_si),
+                              s->time.size() == 1 ? Mark::dots : Mark::line, colour++});
     let_all_be_seen(panel.curves);
     figure.panels.push_back(std::move(panel));
   }
@@ -508,6 +516,8 @@ void draw_field(const Case& c, const Simulation& s, const Path& directory, Of of
   figure.title = fmt::format("{}: {} at {}", c.title, in_words(tiles.field), in_words(s.time, "s"));
   Panel panel;
   panel.x_label = coordinate_label(s.geometry, "x"), panel.y_label = coordinate_label(s.geometry, "y");
+  if (const auto [low, high] = std::minmax_element(points.values.begin(), points.values.end()); *low == *high)
+    panel.title = (tiles.unit == "1" ? fmt::format("{:.4g}", *low) : in_words(*low, tiles.unit)) + " everywhere";
   const Scale values = scale_for(tiles.unit, most ? largest({most->range[0], most->range[1]}) : largest(points.values));
   panel.scale_label = label(in_words(tiles.field), values);
   if (most) {
@@ -605,7 +615,7 @@ void draw_profile(const Case& c, const Simulation& s, const MeasureConfig& measu
   const double margin = 2.0 * s.grid.cell_size;
   const Scale lengths = fit(figure, window, margin);
   strained.size = 0.7 * point_size(particle, figure.panel_width - 190, window.width() + 2.0 * margin);
-  figure.panel_width += 100;  // the legend is wider than colours
+  figure.panel_width += 180;  // the legend and its margins, 41 characters of 9 pixels, are wider than colours
   for (Curve* curve : {&outline, &measured, &strained}) {
     curve->x = scaled(std::move(curve->x), lengths.per_si), curve->y = scaled(std::move(curve->y), lengths.per_si);
   }

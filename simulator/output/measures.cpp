@@ -129,6 +129,21 @@ std::size_t body_of(const MeasureConfig& measure, const Simulation& s) {
   throw std::invalid_argument(fmt::format("measure {}: there is no body \"{}\"", measure.name, measure.body));
 }
 
+std::vector<std::string> other_experiment(const Case& c) {
+  const bool compared = std::any_of(c.measures.begin(), c.measures.end(),
+                                    [](const MeasureConfig& m) { return m.measured || m.kind == MeasureKind::profile_error; });
+  std::vector<std::string> changes;
+  for (const std::string& change : c.set) {
+    const std::string key = change.substr(0, change.find('='));
+    const auto of = [&](std::string_view table) { return key == table || key.starts_with(std::string(table) + '.'); };
+    const bool how = key.find(".material") != std::string::npos || key.ends_with(".particles_per_direction") ||
+                     key.ends_with(".locking_cure") || key.ends_with(".name");
+    if (compared && !how && (of("solid") || of("boundary") || of("load") || of("gravity") || of("geometry")))
+      changes.push_back(change);
+  }
+  return changes;
+}
+
 Measures::Measures(const Case& c, const Simulation& start) {
   for (const MeasureConfig& config : c.measures) {
     Measure measure{config, body_of(config, start), {}, {}};

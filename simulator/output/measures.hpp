@@ -41,6 +41,10 @@ struct MeasuredValue {
   std::optional<double> deviation() const { return measured ? std::optional((value - *measured) / *measured) : std::nullopt; }
 };
 
+/// What --set has changed of the experiment that the case's measures are compared with: its bodies, planes and loads. Materials
+/// are the model of it.
+std::vector<std::string> other_experiment(const Case& c);
+
 class Measures {
  public:
   /// Looks at the bodies as set up, and reads measured profiles.

@@ -1,13 +1,17 @@
 #include "simulator/output/run_directory.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <regex>
+#include <map>
+#include <span>
 #include <stdexcept>
 
+#include "models/input/diagnostics.hpp"
+#include "models/input/toml_tree.hpp"
 #include "models/programs/files.hpp"
 #include "simulator/case_reader.hpp"
 #include "simulator/output/checkpoint.hpp"
@@ -46,9 +50,77 @@ constexpr std::string_view after_time = " s  ";  // in a line of the log
 
 using Files = std::vector<std::pair<std::string, std::string>>;  // name, content
 
-bool holds(const fs::path& directory, const Files& files) {
-  return std::all_of(files.begin(), files.end(),
-                     [&](const auto& file) { return text_of(directory / file.first) == file.second; });
+/// The values of a file by their paths, as --set names them.
+using Values = std::map<std::string, std::string>;
+std::string value_text(const TomlNode& node) {
+  if (const auto* const number = std::get_if<double>(&node.value)) return shortest_text(*number);
+  if (const auto* const integer = std::get_if<std::int64_t>(&node.value)) return std::to_string(*integer);
+  if (const auto* const flag = std::get_if<bool>(&node.value)) return *flag ? "true" : "false";
+  if (const auto* const text = std::get_if<std::string>(&node.value)) return in_quotes(*text);
+  std::string list;
+  for (const TomlNode& element : std::get<TomlList>(node.value)) list += (list.empty() ? "" : ", ") + value_text(element);
+  return '[' + list + ']';
+}
+void collect(const TomlNode& node, const std::string& path, Values& values) {
+  const auto* const list = std::get_if<TomlList>(&node.value);
+  if (const auto* const table = std::get_if<TomlTable>(&node.value)) {
+    for (const TomlEntry& entry : table->entries) collect(entry.node, joined(path, entry.key), values);
+  } else if (list && !list->empty() && std::holds_alternative<TomlTable>(list->front().value)) {
+    for (std::size_t i = 0; i < list->size(); ++i) collect((*list)[i], joined(path, std::to_string(i)), values);
+  } else {
+    values[path] = value_text(node);
+  }
+}
+Values values_of(const std::string& text, const fs::path& file) {
+  Values values;
+  collect(parse_toml(text, file.string()), "", values);
+  values.erase("set");  // it says what led to the values
+  return values;
+}
+
+/// What differs between two cases, and by what: "cell_size is 0.001 there, not 0.002". Empty if nothing does.
+std::vector<std::string> differences(const Values& there, const Values& here) {
+  std::vector<std::string> all;
+  const auto in = [](const Values& values, const std::string& path) {
+    const auto found = values.find(path);
+    return found == values.end() ? "missing" : found->second;
+  };
+  Values paths = there;
+  paths.insert(here.begin(), here.end());
+  for (const auto& [path, value] : paths)
+    if (in(there, path) != in(here, path))
+      all.push_back(fmt::format("{} is {} there, not {}", path, in(there, path), in(here, path)));
+  return all;
+}
+
+/// Why the directory of an earlier run is not to be used for this case; empty if nothing in it is worth anything.
+std::string why_kept(const fs::path& directory, const std::string& text, const Files& profiles) {
+  const fs::path earlier = directory / "case.toml";
+  if (!fs::exists(earlier)) return "holds files that are no run";
+  std::vector<std::string> different;
+  std::string ends;  // until another time it is the same run
+  try {
+    Values there = values_of(text_of(earlier), earlier), here = values_of(text, "case.toml");
+    if (there["end_time"] != here["end_time"])
+      ends = fmt::format(" with its end at {} s, not {} s", there["end_time"], here["end_time"]);
+    there.erase("end_time"), here.erase("end_time");
+    different = differences(there, here);
+  } catch (const InputError& error) {
+    return fmt::format("holds a run whose case cannot be read ({})", error.what());
+  }
+  for (const auto& [name, content] : profiles)
+    if (text_of(directory / name) != content) different.push_back(name + " holds something else there");
+  if (!different.empty()) {
+    constexpr std::size_t most_told = 5;
+    const std::size_t told = std::min(different.size(), most_told);
+    return fmt::format("holds a run of another case: {}{}", fmt::join(std::span(different).first(told), "; "),
+                       different.size() > told ? fmt::format("; and {} more", different.size() - told) : "");
+  }
+  const bool finished = is_finished(directory);
+  if (!finished && !has_checkpoint(directory)) return "";
+  if (!ends.empty()) return "holds this run" + ends + " (brisance resume --until goes on with it to a later time)";
+  return finished ? "holds this run, finished (brisance report tells of it)"
+                  : "holds a run that has not come to its end (brisance resume goes on with it)";
 }
 
 /// Calls f(path, stem of the name that it has in the directory of a run) for what a case reads and what comes along.
@@ -75,14 +147,7 @@ void prepare_directory(const fs::path& directory, const Case& c, bool overwrite)
   if (fs::exists(directory) && !fs::is_directory(directory))
     throw std::invalid_argument(fmt::format("{}: is a file; a run needs a directory", directory.string()));
   if (fs::exists(directory) && !fs::is_empty(directory) && !overwrite) {
-    const fs::path earlier = directory / "case.toml";
-    const std::string why = !fs::exists(earlier)                                      ? "holds files that are no run"
-                            : text_of(earlier) != text || !holds(directory, profiles) ? "holds a run of another case"
-                            : is_finished(directory) ? "holds this run, finished (brisance report tells of it)"
-                            : has_checkpoint(directory)
-                                ? "holds a run that has not come to its end (brisance resume goes on with it)"
-                                : "";
-    if (!why.empty())
+    if (const std::string why = why_kept(directory, text, profiles); !why.empty())
       throw std::invalid_argument(fmt::format(
           "{}: {}; choose another directory with -o, or replace the run there with --overwrite", directory.string(), why));
   }
@@ -95,10 +160,15 @@ void prepare_directory(const fs::path& directory, const Case& c, bool overwrite)
   replace_file_by_text(directory / "case.toml", text);
 }
 
-void set_end_time(const fs::path& directory, Case c, double end_time) {
-  c.output.history_interval = row_interval(c);
+Case lasting(Case c, double end_time) {
+  if (!(end_time > c.end_time)) return c;
   c.end_time = end_time;
-  c.subtitle = std::regex_replace(c.subtitle, std::regex("\\bend_time=[^,]*"), fmt::format("end_time={:.6g} s", end_time));
+  for (std::string& change : c.set)
+    if (change.starts_with("end_time=")) change = fmt::format("end_time={:.6g} s", end_time);
+  return c;
+}
+
+void replace_case(const fs::path& directory, Case c) {
   for_each_profile(c, [&](fs::path& profile, std::string_view) {  // what came along stays beside the case
     std::error_code elsewhere;
     if (fs::equivalent(profile.parent_path(), directory, elsewhere)) profile = profile.filename();

@@ -13,8 +13,8 @@ namespace brisance::simulator {
 
 /// Makes the directory of a new run and writes case.toml, with the profiles that it names beside it. Throws
 /// std::invalid_argument if it holds anything that is worth something, unless that may be overwritten: files that are no run, a
-/// run of another case, this run if it has finished or left a checkpoint. What does not look like the output of a run is never
-/// removed.
+/// run of another case (it says what differs), this run, whatever its end, if it has finished or left a checkpoint. What does
+/// not look like the output of a run is never removed.
 void prepare_directory(const std::filesystem::path& directory, const Case& c, bool overwrite);
 
 /// log.txt: lines with the time since the start. It never throws: what the log cannot hold is no reason to end a run.
@@ -34,8 +34,9 @@ class Log {
 /// The lines of a log without their times; none if there is no log.
 std::vector<std::string> read_log(const std::filesystem::path& path);
 
-/// Makes `end_time` (s) that of the case in the directory of a run, `c` as it was read from there: what goes on next ends then,
-/// too. Rows of the history keep their distance.
-void set_end_time(const std::filesystem::path& directory, Case c, double end_time);
+/// A case that lasts until a later time, s; the case itself if that is not later.
+Case lasting(Case c, double end_time);
+/// Writes a case that was read from the directory of a run, and changed since, back to it.
+void replace_case(const std::filesystem::path& directory, Case c);
 
 }  // namespace brisance::simulator

@@ -1,6 +1,7 @@
 #include "simulator/output/summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -152,7 +153,9 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
   }
   Json resumed_after = Json::list();
   for (const std::string& gate : s.resumed_after) resumed_after.append(gate);
-  all.set("resumed_after", resumed_after);
+  Json other_experiment = Json::list();
+  for (const std::string& change : s.other_experiment) other_experiment.append(change);
+  all.set("resumed_after", resumed_after).set("other_experiment", other_experiment);
   all.set("wall_time", s.wall_time).set(points + "_steps_per_second", s.particle_steps_per_second).set("threads", s.threads);
   replace_file_by_text(path, all.set("versions", versions).text());
 }
@@ -187,6 +190,9 @@ std::string in_words(const Summary& s) {
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", m.name, shown(m.value), m.measured ? shown(*m.measured) : "",
                         m.measured ? difference(m) : "");
   }
+  if (!s.other_experiment.empty())
+    text += fmt::format("  caution: measured is the experiment of the case as its file states it; --set has changed {}\n",
+                        fmt::join(s.other_experiment, ", "));
   if (s.books.gas) {
     text += gas_in_words(s.books, static_cast<double>(s.steps) * static_cast<double>(s.particles));
     return text + (s.not_gated.empty() ? "" : fmt::format("  not gated: {}\n", s.not_gated));

@@ -21,9 +21,10 @@ struct Summary {
   int threads = 1;
   Books books;
   std::vector<MeasuredValue> measures;
-  std::vector<GaugePeak> peaks{};            // of the gauges
-  std::string not_gated{};                   // what no gate watches
-  std::vector<std::string> resumed_after{};  // gates that had ended it before
+  std::vector<GaugePeak> peaks{};               // of the gauges
+  std::string not_gated{};                      // what no gate watches
+  std::vector<std::string> resumed_after{};     // gates that had ended it before
+  std::vector<std::string> other_experiment{};  // what --set has changed of the one that its measures are compared with
 };
 
 /// How a run came to its end, as the summary that it wrote tells it; nothing if there is none.

@@ -15,7 +15,8 @@ namespace {
 
 // Every key, each with another value than its default.
 const std::string everything = R"(title = "Everything \"at once\""
-subtitle = "with numerics.courant=0.2"
+subtitle = "of all that there is"
+set = ["numerics.courant=0.2"]
 geometry = "three_dimensional"
 cell_size = "1 mm"
 end_time = "10 us"

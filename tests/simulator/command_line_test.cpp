@@ -14,6 +14,7 @@
 #include "simulator/formula.hpp"
 #include "simulator/keys.hpp"
 #include "simulator/memory_need.hpp"
+#include "simulator/output/run_directory.hpp"
 #include "simulator/run.hpp"
 #include "simulator/setup.hpp"
 #include "tests/simulator/small_bar.hpp"
@@ -52,6 +53,28 @@ TEST(RunCommand, NamesWhatWasSet) {
   EXPECT_TRUE(contains(text_of(directory / "run" / "log.txt"), "Bar, " + said));
   EXPECT_TRUE(contains(call({"report", run}).out, said));
   EXPECT_FALSE(contains(call({"check", file}).out, "Small bar\n  with "));
+  EXPECT_FALSE(contains(call({"check", file, "--set", "gates.fastest=200"}).out, "Small bar\n  with "))
+      << "a gate changes nothing that is computed, and is raised by hand later";
+}
+
+/// Deviations from an experiment that was another one are not left without a remark.
+TEST(RunCommand, SaysThatTheExperimentOfItsMeasuresIsAnother) {
+  const fs::path directory = scratch();
+  const std::string measure = no_figures + "[[measure]]\nkind = \"final_length\"\n",
+                    compared = write_text(directory / "bar.toml", small_bar(measure + "measured = \"11 mm\"\n")).string(),
+                    alone = write_text(directory / "alone.toml", small_bar(measure)).string(),
+                    run = (directory / "run").string(),
+                    caution = "caution: measured is the experiment of the case as its file states it; --set has changed ";
+  const auto told = [&](const std::string& file, const std::string& set) {
+    return call({"run", file, "-o", run, "--overwrite", "--set", "end_time=0.1 us", "--set", set}).out;
+  };
+  const std::string velocity = "solid.0.velocity=[0, \"-210 m/s\"]";
+  EXPECT_TRUE(contains(told(compared, velocity), caution + velocity + '\n'));
+  EXPECT_TRUE(contains(call({"report", run}).out, caution + velocity + '\n')) << "later as well";
+  EXPECT_TRUE(contains(text_of(directory / "run" / "summary.json"), "\"other_experiment\": [\n    \"solid.0.velocity=["));
+  for (const char* model : {"cell_size=0.4 mm", "solid.0.material.flow_stress.A=95 MPa", "solid.0.particles_per_direction=3"})
+    EXPECT_FALSE(contains(told(compared, model), caution)) << model;
+  EXPECT_FALSE(contains(told(alone, velocity), caution)) << "nothing is compared";
 }
 
 TEST(RunCommand, ACaseWithMistakesIsBadInput) {
@@ -104,10 +127,33 @@ TEST(RunCommand, RefusesADirectoryThatHoldsSomethingElse) {
   EXPECT_TRUE(contains(again.err, "holds this run, finished")) << again.err;
   EXPECT_EQ(text_of(directory / "run" / "history.csv"), finished);
   EXPECT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.2 us", "--overwrite"}).code, done);
-  const Answer other = call({"run", file, "-o", run, "--set", "end_time=0.3 us"});
+  const Answer other = call({"run", file, "-o", run, "--set", "cell_size=0.4 mm", "--set", "gates.fastest=300"});
   EXPECT_EQ(other.code, bad_input);
-  EXPECT_TRUE(contains(other.err, "run of another case")) << other.err;
+  EXPECT_TRUE(contains(other.err,
+                       "holds a run of another case: cell_size is 8e-04 there, not 4e-04; gates.fastest is missing "
+                       "there, not 300; choose another directory"))
+      << other.err;
+  const Answer longer = call({"run", file, "-o", run, "--set", "end_time=0.3 us"});
+  EXPECT_EQ(longer.code, bad_input);
+  EXPECT_TRUE(contains(longer.err, "holds this run with its end at 2e-07 s, not 3e-07 s")) << longer.err;
   EXPECT_EQ(call({"run", file, "-o", file}).code, bad_input) << "a file is no directory";
+}
+
+/// However its values were set, and to whatever end it has been resumed.
+TEST(RunCommand, KnowsTheSameCaseAgain) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
+                    run = (directory / "run").string(), courant = "numerics.courant=0.3", end = "end_time=0.2 us";
+  ASSERT_EQ(call({"run", file, "-o", run, "--set", courant, "--set", end}).code, done);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{end, courant, "cell_size=0.8 mm"}, {courant, end, end}}) {
+    std::vector<std::string> all = {"run", file, "-o", run};
+    for (const std::string& set : words) all.insert(all.end(), {"--set", set});
+    EXPECT_TRUE(contains(call(all).err, "holds this run, finished")) << call(all).err;
+  }
+  ASSERT_EQ(call({"resume", run, "--until", "0.4 us"}).code, done);
+  const Answer a = call({"run", file, "-o", run, "--set", courant, "--set", end});
+  EXPECT_TRUE(contains(a.err, "holds this run with its end at 4e-07 s, not 2e-07 s")) << a.err;
 }
 
 TEST(RunCommand, ADirectoryThatCannotBeMadeIsNamed) {
@@ -184,7 +230,28 @@ TEST(ResumeCommand, DoesNotPassAGateUnlessItsLimitIsRaisedAndTellsOfIt) {
   EXPECT_TRUE(contains(call({"report", run}).out, told));
 }
 
-/// So that a plain `resume` after an interrupt goes as far; the rows of the history keep their distance.
+/// At --until a row of its own is judged. It is not forgotten, though a plain `resume` has none there.
+TEST(ResumeCommand, MeetsAGateAgainThatARowOfItsOwnHadMet) {
+  const fs::path directory = scratch();
+  const fs::path run_directory = directory / "run";
+  const Case c = read_case(write_text(
+      directory / "bar.toml", small_bar("[output]\nfigures = false\nhistory_interval = \"6.9 us\"\n[gates]\nfastest = 191\n")));
+  Simulation s = set_up(c);
+  prepare_directory(run_directory, c, false);
+  ASSERT_EQ(run(c, s, {run_directory, {}, 3}).ending, Ending::interrupted);
+  std::string text = text_of(run_directory / "case.toml");
+  text.replace(text.find("fastest = 191"), 13, "fastest = 100");
+  write_text(run_directory / "case.toml", text);
+  const Answer first = call({"resume", run_directory.string(), "--until", "0.3 us"});
+  EXPECT_TRUE(contains(first.err, "gate fastest: ") && contains(first.err, "time 3e-07 s")) << first.err;
+  const Answer again = call({"resume", run_directory.string()});
+  EXPECT_EQ(again.code, failed_while_running) << again.out;
+  const std::size_t at = again.err.find(", time ");
+  ASSERT_NE(at, std::string::npos) << again.err;
+  EXPECT_NEAR(std::stod(again.err.substr(at + 7)), 3e-7, 1e-7) << "not at the row of 6.9 us";
+}
+
+/// So that a plain `resume` after an interrupt goes as far; there are as many rows as of a case that ends then.
 TEST(ResumeCommand, RemembersALaterTimeAndKeepsWhatCameAlongBesideTheCase) {
   const fs::path directory = scratch();
   const std::string profile = write_text(directory / "profile.csv", "height [mm],radius [mm]\n1,3.3\n2,3.2\n").string();
@@ -202,10 +269,36 @@ TEST(ResumeCommand, RemembersALaterTimeAndKeepsWhatCameAlongBesideTheCase) {
   fs::rename(directory / "run", directory / "moved");
   const Case c = read_case(directory / "moved" / "case.toml");
   EXPECT_EQ(c.end_time, 1e-6);
-  EXPECT_EQ(c.subtitle, "with end_time=1e-06 s");
-  EXPECT_DOUBLE_EQ(c.output.history_interval, 1e-9);
+  EXPECT_EQ(c.below_title(), "with end_time=1e-06 s");
+  EXPECT_DOUBLE_EQ(row_interval(c), 1e-6 / 500);
   const Answer a = call({"resume", (directory / "moved").string()});
   EXPECT_TRUE(contains(a.out, "come to 1e-06 s, and its end is at 1e-06 s")) << a.out << a.err;
+}
+
+/// What cannot be restored does not become longer either.
+TEST(ResumeCommand, RemembersALaterTimeOnlyOnceTheRunIsRestored) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string(),
+                    run = (directory / "run").string();
+  ASSERT_EQ(call({"run", file, "-o", run, "--set", "end_time=0.2 us"}).code, done);
+  const std::string text = text_of(directory / "run" / "case.toml");
+  for (const char* name : {"checkpoint_a.h5", "checkpoint_b.h5"}) write_text(directory / "run" / name, "no checkpoint");
+  EXPECT_EQ(call({"resume", run, "--until", "0.4 us"}).code, failed_while_running);
+  EXPECT_EQ(text_of(directory / "run" / "case.toml"), text);
+}
+
+/// A failed run has not come to a good end because a time before the failure is named.
+TEST(ResumeCommand, OfAFailedRunUntilAnEarlierTimeSaysThatItIsBeyond) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(
+                               directory / "bar.toml",
+                               small_bar("[output]\nfigures = false\ncheckpoint_steps = 1\nhistory_interval = \"0.5 us\"\n"))
+                               .string(),
+                    run = (directory / "run").string();
+  ASSERT_EQ(call({"run", file, "-o", run, "--set", "gates.residual=1e-30"}).code, failed_while_running);
+  const Answer a = call({"resume", run, "--until", "0.1 us"});
+  EXPECT_TRUE(contains(a.out, "and --until is at 1e-07 s, before that")) << a.out << a.err;
+  EXPECT_TRUE(contains(text_of(directory / "run" / "summary.json"), "\"ending\": \"failed\""));
 }
 
 /// An earlier time is a stop on the way.
@@ -284,7 +377,10 @@ TEST(ResumeCommand, OfARunThatHasComeToItsEndSaysSoAndTouchesNothing) {
     words.insert(words.end(), until.begin(), until.end());
     const Answer a = call(words);
     EXPECT_EQ(a.code, done) << a.err;
-    EXPECT_TRUE(contains(a.out, "nothing was left to do: the run has come to 5e-07 s")) << a.out;
+    EXPECT_TRUE(
+        contains(a.out, "nothing was left to do: the run has come to 5e-07 s, and " +
+                            std::string(until.empty() ? "its end is at 5e-07 s. " : "--until is at 3e-07 s, before that")))
+        << a.out;
     EXPECT_TRUE(contains(a.out, "brisance resume " + run + " --until")) << a.out;
     EXPECT_FALSE(contains(a.out, ": done")) << a.out;
   }
@@ -317,6 +413,10 @@ TEST(CheckCommand, TellsSizeAndTimeAndWarnsOfThinBodies) {
   const Answer coarse = call({"check", file, "--set", "cell_size=3.2 mm", "--set", "solid.0.velocity=[0, -9000]"});
   EXPECT_TRUE(contains(coarse.out, "it is 2 cells thick, fewer than 4")) << coarse.out;
   EXPECT_TRUE(contains(coarse.out, "faster than sound")) << coarse.out;
+  const Answer wordy = call({"check", file, "--set", "output.history_interval=1 ps"});
+  EXPECT_TRUE(contains(wordy.out, "output.history_interval gives 7e+06 rows of history.csv")) << wordy.out;
+  const Answer endless = call({"check", file, "--set", "end_time=1 h"});
+  EXPECT_TRUE(contains(endless.out, " days; cells twice as large take 8 times less")) << endless.out;
 }
 
 TEST(CheckCommand, ForeseesTheStepsOfAGasAndCallsBodiesParticles) {
@@ -408,6 +508,12 @@ TEST(CommandLine, NamesTheNearestCommandAndTheVersion) {
   const Answer version = call({"--version"});
   EXPECT_EQ(version.code, done);
   EXPECT_TRUE(version.out.starts_with("brisance ")) << version.out;
+}
+
+TEST(DescribeCommand, ShowsNoLimitThatIsNone) {
+  const Answer a = call({"describe", "gates"});
+  EXPECT_TRUE(contains(a.out, "no limit if not given")) << a.out;
+  EXPECT_FALSE(contains(a.out, "e+300")) << a.out;
 }
 
 TEST(DescribeCommand, ExplainsShapesByExamplesThatCanBeRead) {

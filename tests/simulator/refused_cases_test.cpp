@@ -338,8 +338,7 @@ TEST(CaseReader, ReportsWhatCanBeJudgedWhateverElseIsWrong) {
                                            "gauge.0.fields: \"presure\"",
                                            "gauge.0.colour: unknown key",
                                            "figure.0.kind: \"lines\" is unknown",
-                                           "figure.0.reference: its file cannot be used",
-                                           "nowhere.csv: there is no such file"};
+                                           "figure.0.reference: its file cannot be used: nowhere.csv: there is no such file"};
   const std::vector<std::string> of_solids = {"solid.0.material: there is no material file",
                                               "solid.0.velocity: in the axisymmetric geometry no body moves",
                                               "solid.1.temperature: missing",
@@ -363,15 +362,14 @@ TEST(CaseReader, ReportsWhatCanBeJudgedWhateverElseIsWrong) {
                                               "measure.0.body: there is no solid \"bat\"",
                                               "measure.0.measured: \"4 s\" is not a length",
                                               "measure.1: which body the measure is of is unknown",
-                                              "measure.1.profile: its file cannot be used",
+                                              "measure.1.profile: its file cannot be used: nowhere.csv: there is no such file",
                                               "measure.1.axis: \"q\" is unknown",
                                               "figure.0.name: \"a/b\"",
                                               "figure.0.fields: \"position\" cannot be drawn",
                                               "figure.0.to: it is where `from` is",
                                               "output.figure_field: this is the number 3",
                                               "output.history_interval: -1 s",
-                                              "gates.residual: 0 is out of range",
-                                              "nowhere.csv: there is no such file"};
+                                              "gates.residual: 0 is out of range"};
   const auto without = [](std::vector<std::string> all, const std::vector<std::string>& keys) {
     for (const std::string& key : keys)
       std::erase_if(all, [&](const std::string& problem) { return problem.starts_with(key); });
@@ -425,6 +423,18 @@ TEST(CaseReader, ReportsAllThatIsWrongWithAFileOfNumbers) {
                                          "[[figure]]\nname = \"a\"\nkind = \"line\"\nfields = [\"pressure\", \"density\"]\n"
                                          "from = [0, 0]\nto = [\"1 mm\", 0]\nreference = \"worse.csv\"\n");
   EXPECT_EQ(count(figure, "worse.csv:"), 2) << "no column x, no pressure in m\n" << figure;
+}
+
+TEST(CaseReader, AFileThatIsNotThereIsOneProblem) {
+  EXPECT_EQ(problems_of(bar + "[[measure]]\nkind = \"profile_error\"\nprofile = \"nowhere.csv\"\n"),
+            "case.toml:19:11: measure.0.profile: its file cannot be used: nowhere.csv: there is no such file");
+}
+
+TEST(CaseReader, RefusesATextOfSeveralLines) {
+  EXPECT_EQ(problems_of(bar + "[[gauge]]\nname = \"a\\nb\"\nkind = \"point\"\nfrom = [0, 0]\nfields = [\"pressure\"]\n"),
+            "case.toml:18:8: gauge.0.name: the text has a line break; give one line");
+  EXPECT_EQ(problems_of("subtitle = \"\"\"above\nbelow\"\"\"\n" + bar),
+            "case.toml:1:12: subtitle: the text has a line break; give one line");
 }
 
 TEST(CaseReader, ACaseHasABody) {

@@ -7,6 +7,7 @@
 
 #include "simulator/output/fields.hpp"
 #include "simulator/output/particle_cells.hpp"
+#include "simulator/run.hpp"
 #include "tests/simulator/by_hand.hpp"
 #include "tests/simulator/told_to_gnuplot.hpp"
 
@@ -91,6 +92,37 @@ TEST(EveryPicture, SaysBelowItsTitleHowItsCaseDiffersAsFarAsThereIsRoom) {
     EXPECT_TRUE(contains(told, "{/=10 \".\"with cell\\\\_size=1")) << told.substr(0, 1000);
     EXPECT_TRUE(contains(told, "µ...\"")) << told.substr(0, 1000);
   }
+}
+
+/// A title that has to be small draws its second line nearer: letters of the usual size would lie over it.
+TEST(EveryPicture, HasNoLargerLettersBelowItsTitleThanInIt) {
+  Case c = disk();
+  c.title = std::string(200, 't'), c.subtitle = "below";
+  const std::string told = told_to_gnuplot(c, set_up(c), scratch());
+  EXPECT_TRUE(contains(told, "{/=8 ")) << told.substr(0, 1000);
+  EXPECT_TRUE(contains(told, "t...\"")) << "cut, not beyond both ends of the figure: " << told.substr(0, 1000);
+}
+
+/// One row and a body at rest in itself: neither ranges without extent nor lines of one place, nor colours below zero.
+TEST(PicturesOfARunThatHasNotBegun, ShowItsOneRow) {
+  const fs::path directory = scratch();
+  Case c = disk();
+  c.output.figures = false;
+  GaugeConfig gauge;
+  gauge.name = "middle", gauge.kind = GaugeKind::point, gauge.from = {0.0, 7.0 * h, 0.0}, gauge.fields = {"pressure"};
+  c.gauges = {gauge};
+  Simulation s = set_up(c);
+  const RunResult result = run(c, s, {directory, {}, 0});
+  ASSERT_EQ(result.ending, Ending::interrupted) << result.message;
+  const std::string told = told_to_gnuplot(c, s, directory);
+  const auto count = [&](const std::string& part) {
+    int found = 0;
+    for (std::size_t at = 0; (at = told.find(part, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("set xrange [0:1]"), 3) << "energies, numerical books, gauges";
+  EXPECT_EQ(count("with lines lw 2"), 0);
+  EXPECT_TRUE(contains(told, "set cbrange [0:1]") && contains(told, "set title \"0 everywhere\"")) << told.substr(0, 3000);
 }
 
 /// Of a body in space, the layer of particles that the plane z = 0 cuts.

@@ -165,6 +165,21 @@ TEST(TableReader, ListsMustHaveTheLengthAskedFor) {
       "case.toml:3:10: gauges: the list is empty; give a list of 1 to 2 elements, each a text in quotes");
 }
 
+TEST(TableReader, ElementsAreJudgedEvenWhereThereAreTooMany) {
+  const std::string message = problems_of(
+      "x = [true, 1, \"2 s\"]\n", [](TableReader& top) { EXPECT_EQ(top.numbers("x", {Unit::m}, exactly(2)).size(), 2u); });
+  for (const char* problem : {"x: the list has 3 elements", "x.0: this is true", "x.2: \"2 s\" is not a length"})
+    EXPECT_NE(message.find(problem), std::string::npos) << message;
+}
+
+TEST(TableReader, AllKnotsOfATableThatDoNotRiseAreReported) {
+  const std::string message = problems_of("x = {time = [0, 2, 1, 1], value = [1, 2, 3, 4]}\n", [](TableReader& top) {
+    static_cast<void>(top.piecewise("x", {Unit::m}, "time", {Unit::s}));
+  });
+  for (const char* problem : {"element 2 is 1 after 2", "element 3 is 1 after 1"})
+    EXPECT_NE(message.find(problem), std::string::npos) << message;
+}
+
 TEST(TableReader, LongListsOfWrongElementsAreReportedInPart) {
   std::string text = "x = [";
   for (int i = 0; i < 1000; ++i) text += "true, ";

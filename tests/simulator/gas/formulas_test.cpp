@@ -175,6 +175,24 @@ TEST(FormulasBeyondAnEdge, AreRefusedWithTheLineAndWhatIsAllowed) {
   }
 }
 
+/// Each for itself: whatever else is wrong with the state, and where it is.
+TEST(FormulasBeyondAnEdge, AreJudgedWhateverElseIsWrong) {
+  for (const auto& [from, to, also] :
+       {std::tuple{"density = \"1 + 0.2*sin(2*pi*(x - t))\"\nvelocity = [1, \"0*x\"]", "velocity = [\"1/(x-x)\", 0]",
+                   "neither density nor temperature is given"},
+        {"density = \"1 + 0.2*sin(2*pi*(x - t))\"\nvelocity = [1, \"0*x\"]",
+         "density = \"-2 + x\"\nvelocity = [\"1/(x-x)\", 0]", "gas.edge.2.density: \"-2 + x\" is "},
+        {"side = \"high_y\"\nkind = \"inflow\"\npressure = 1\ndensity = \"1 + 0.2*sin(2*pi*(x - t))\"\nvelocity = [1, \"0*x\"]",
+         "side = \"high_x\"\nkind = \"inflow\"\npressure = 1\ndensity = 1\nvelocity = [\"1/(x-x)\", 0]",
+         "this side is given twice"},
+        {"side = \"high_y\"\nkind = \"inflow\"\npressure = 1\ndensity = \"1 + 0.2*sin(2*pi*(x - t))\"\nvelocity = [1, \"0*x\"]",
+         "side = \"high_y\"\nkind = \"inflo\"\npressure = 1\ndensity = 1\nvelocity = [\"1/(x-x)\", 0]",
+         "\"inflo\" is unknown"}}) {
+    const std::string problems = problems_of(carried(20), from, to);
+    EXPECT_TRUE(contains(problems, "gas.edge.2.velocity: \"1/(x-x)\" is ") && contains(problems, also)) << problems;
+  }
+}
+
 /// With bodies the gas asks for eight rings of cells beyond a side, without for two.
 TEST(FormulasBeyondAnEdge, AreTriedAsFarAsTheGasWillAsk) {
   const std::string body = "[[gas.body]]\nname = \"disk\"\nshape = { sphere = { centre = [0.5, 0], radius = 0.11 } }\n";

@@ -179,7 +179,7 @@ TEST(PicturesOfEnergy, ShowLinesThatLieOnEachOther) {
   EXPECT_EQ(style_of("through high\\\\_x"), "lines lw 2 dt (21,7)");
   EXPECT_EQ(style_of("through low\\\\_y"), "lines lw 2 dt (14,14)");
   EXPECT_EQ(style_of("through high\\\\_y"), "lines lw 2 dt (7,21)");
-  EXPECT_EQ(style_of("total, change"), "lines lw 2") << "on no other";
+  EXPECT_EQ(style_of("change of the total"), "lines lw 2") << "on no other";
 }
 
 TEST(PicturesAboutAnAxis, NameTheCoordinatesAsTheCaseFileDoes) {
