@@ -176,9 +176,15 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
         compliance += share;
         gruneisen += shares[r].volume / room * shares[r].gruneisen;
       }
-      for (std::size_t r = 0; r < fluids; ++r)
-        gas.primitive.at(block, Primitive::count(D) + static_cast<int>(r))[k] = select(
-            shares[r].volume > least_fraction * room, shares[r].volume / (shares[r].bulk_modulus * compliance), Lanes(0.0));
+      // The square of a fluid's impedance over the cell's is its part of the mass over that of the compressibility.
+      Lanes softness(0.0);
+      for (std::size_t r = 0; r < fluids; ++r) {
+        Lanes& share = gas.primitive.at(block, Primitive::share(D, static_cast<int>(r)))[k];
+        share = select(shares[r].volume > least_fraction * room, shares[r].volume / (shares[r].bulk_modulus * compliance),
+                       Lanes(0.0));
+        softness += sqrt(share * shares[r].mass / mass);
+      }
+      gas.primitive.at(block, Primitive::softness(D, static_cast<int>(fluids)))[k] = min(softness, Lanes(1.0));
       bulk = room / compliance;
     }
     const Lanes sound = sqrt(bulk / density);
@@ -416,8 +422,11 @@ void write_primitive(Gas& gas, std::size_t block, int cell, const Filling& filli
   set.cell(block, Primitive::gruneisen, cell) = eos::gruneisen_coefficient(law, filling.density, energy);
   for (int a = 0; a < gas.dimensions(); ++a)
     set.cell(block, Primitive::velocity + a, cell) = filling.velocity[static_cast<std::size_t>(a)];
-  for (int r = 0; gas.fluids.size() > 1 && r < static_cast<int>(gas.fluids.size()); ++r)
-    set.cell(block, Primitive::count(gas.dimensions()) + r, cell) = r == filling.fluid ? 1.0 : 0.0;
+  const int fluids = static_cast<int>(gas.fluids.size());
+  if (fluids == 1) return;
+  for (int r = 0; r < fluids; ++r)
+    set.cell(block, Primitive::share(gas.dimensions(), r), cell) = r == filling.fluid ? 1.0 : 0.0;
+  set.cell(block, Primitive::softness(gas.dimensions(), fluids), cell) = 1.0;
 }
 
 }  // namespace brisance::simulator::gas

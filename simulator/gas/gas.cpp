@@ -95,7 +95,7 @@ void fill_in_portions(Gas& gas, const PortionsFunction& portions, Domain& domain
     *set = CellSet(gas.contents(), packs);
     set->resize(blocks);
   }
-  gas.primitive = CellSet(Primitive::count(D) + (gas.fluids.size() > 1 ? static_cast<int>(gas.fluids.size()) : 0), packs);
+  gas.primitive = CellSet(Primitive::all(D, static_cast<int>(gas.fluids.size())), packs);
   gas.half_step = CellSet(HalfStep::count(D), packs);
   gas.marks = CellSet(1, packs);
   gas.primitive.resize(blocks), gas.half_step.resize(blocks), gas.marks.resize(blocks);

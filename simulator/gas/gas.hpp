@@ -83,6 +83,13 @@ struct Content {
 struct Primitive {
   static constexpr int density = 0, pressure = 1, sound_speed = 2, gruneisen = 3, velocity = 4;
   static constexpr int count(int dimensions) { return velocity + dimensions; }
+  /// With several fluids: the part of the cell's compressibility that each has, and the mean of their impedances by these parts
+  /// over the impedance of the cell, 1 or less.
+  static constexpr int share(int dimensions, int fluid) { return count(dimensions) + fluid; }
+  static constexpr int softness(int dimensions, int fluids) { return share(dimensions, fluids); }
+  static constexpr int all(int dimensions, int fluids) {
+    return fluids > 1 ? softness(dimensions, fluids) + 1 : count(dimensions);
+  }
 };
 /// What half a step changes in the Lagrangian frame, and which cells have to do without slopes (1, others 0).
 struct HalfStep {

@@ -67,6 +67,7 @@ template <int D>
 struct FaceStates {
   Pencil density, pressure, sound, gruneisen, velocity[D], half_pressure, half_velocity, plain;
   // These acoustic_faces finds.
+  Pencil softness;                         // see load_softness
   Pencil stretch;                          // change of the velocity along the pencil over a cell
   Unset<FaceSide, reach> to_low, to_high;  // what the cells send to their faces
 };
@@ -82,9 +83,20 @@ void load_states(const Gas& gas, std::size_t block, int axis, int n, FaceStates<
   load<D>(gas.cells, gas.half_step, block, HalfStep::velocity + axis, axis, n, s.half_velocity);
 }
 
+/// Part of the impedances of a pencil's cells that their waves have. Drops in a gas, or a gas that stands beside a liquid in a
+/// cell, are no foam: with the impedance of foam three cells at the edge of a liquid would take hundreds of steps to come to
+/// the pressure about them. Their waves are those of the fluids, by their parts of the compressibility. Softer waves even out
+/// pressures faster; faster than in a cell through which sound just passes in the step they would overshoot.
+template <int D>
+void load_softness(const Gas& gas, std::size_t block, int axis, int n, double dt, FaceStates<D>& s) {
+  load<D>(gas.cells, gas.primitive, block, Primitive::softness(D, static_cast<int>(gas.fluids.size())), axis, n, s.softness);
+  for (std::size_t c = ring - 1; c <= ring + line; ++c)
+    s.softness[c] = max(s.softness[c], min(Lanes((2.0 * D * dt / gas.cells.cell_size) * s.sound[c]), Lanes(1.0)));
+}
+
 /// Velocity and pressure of the faces of a pencil, by the waves between its cells.
 template <int D>
-void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>& s, FacePencil& face_velocity,
+void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, double dt, FaceStates<D>& s, FacePencil& face_velocity,
                     FacePencil& face_pressure) {
   const double half_head = 0.5 * gas.gravity[static_cast<std::size_t>(axis)] * gas.cells.cell_size;
   const Pencil& velocity = s.velocity[axis];
@@ -102,6 +114,8 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>&
       if (a != axis) square += s.velocity[a][c] * s.velocity[a][c];
     speed[c] = square;
   }
+  const bool several = gas.fluids.size() > 1;
+  if (several) load_softness<D>(gas, block, axis, n, dt, s);
   const auto face = [&](std::size_t f, double least_mach) {
     const std::size_t l = ring + f - 1, r = ring + f;
     FaceSide L = to_high[l], R = to_low[r];
@@ -109,6 +123,7 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, FaceStates<D>&
       L = trusted(L, s.density[l], s.pressure[l], velocity[l], s.plain[r] > 0.0);
       R = trusted(R, s.density[r], s.pressure[r], velocity[r], s.plain[l] > 0.0);
     }
+    if (several) L.density *= s.softness[l], R.density *= s.softness[r];  // which the impedances are made of
     const Lanes shock = 1.0 + 0.5 * max(s.gruneisen[l], s.gruneisen[r]);
     return star(L, R, s.sound[l], s.sound[r], shock, sqrt(max(speed[l], speed[r])), least_mach);
   };
@@ -242,7 +257,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
       if (gas.implicit)
         solved_faces<D>(gas, block, axis, n, dt, face_velocity, face_pressure);
       else
-        acoustic_faces<D>(gas, block, axis, n, states, face_velocity, face_pressure);
+        acoustic_faces<D>(gas, block, axis, n, dt, states, face_velocity, face_pressure);
       for (std::size_t c = ring - 1; gas.implicit && rubs && c <= ring + line; ++c)
         states.stretch[c] = slope(states.velocity[axis], c);
       PencilMetric metric;
@@ -321,7 +336,7 @@ bool move(Gas& gas, std::size_t block, double dt) {
         Lanes& volume = of(r, Content::volume);
         const LanesMask most_of_it = (volume == largest) & !given;
         given |= most_of_it;
-        const Lanes wanted = gas.primitive.at(block, Primitive::count(D) + r)[k];
+        const Lanes wanted = gas.primitive.at(block, Primitive::share(D, r))[k];
         const Lanes share = select(most_of_it, Lanes(0.0), limited_share(wanted, growth, volume));
         rest -= share;
         volume += share * growth, of(r, Content::internal) += share * work;
