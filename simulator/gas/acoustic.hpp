@@ -43,6 +43,15 @@ inline FaceSide face_side(const Pencil& density, const Pencil& pressure, const P
   return trusted(s, density[c], pressure[c], velocity[c], plain);
 }
 
+/// Part of the impedance of a cell that its waves have, from the mean of its fluids' impedances over its own. Drops in a gas,
+/// or a gas that stands beside a liquid in a cell, are no foam: with the impedance of foam three cells at the edge of a liquid
+/// would take hundreds of steps to come to the pressure about them. Their waves are those of the fluids, by their parts of the
+/// compressibility. Softer waves even out pressures faster; faster than in a cell through which sound just passes in the step
+/// they would overshoot. `cells_per_speed`: step over cell size, times the dimensions (s/m).
+inline Lanes softness_in_step(const Lanes& softness, const Lanes& sound, double cells_per_speed) {
+  return max(softness, min(Lanes((2.0 * cells_per_speed) * sound), Lanes(1.0)));
+}
+
 /// The waves between two states.
 struct FaceWaves {
   Lanes Z_L, Z_R, sum;  // impedances, kg/(m^2 s); 1/(Z_L + Z_R)

@@ -112,6 +112,10 @@ void find_faces(Gas& gas, double dt) {
     }
     return square;
   };
+  const int fluids = static_cast<int>(gas.fluids.size());
+  const Column* softness =
+      fluids > 1 ? &s.primitive[static_cast<std::size_t>(Primitive::softness(w.dimensions, fluids))] : nullptr;
+  const double cells_per_speed = static_cast<double>(D) * dt / gas.cells.cell_size;
   for (std::size_t a = 0; a < D; ++a)
     for_each_eight(w, [&](std::size_t n) {
       const std::size_t l = n - offset(w, a);
@@ -125,6 +129,11 @@ void find_faces(Gas& gas, double dt) {
       L = chosen(gas_L, L, R), R = chosen(gas_R, R, from_L);
       const Lanes c_L = sound_L;
       sound_L = select(gas_L, sound_L, sound_R), sound_R = select(gas_R, sound_R, c_L);
+      if (softness) {  // impedances are made of densities
+        const Lanes low = at(*softness, l), high = at(*softness, n);
+        L.density *= softness_in_step(select(gas_L, low, high), sound_L, cells_per_speed);
+        R.density *= softness_in_step(select(gas_R, high, low), sound_R, cells_per_speed);
+      }
       const Lanes shock = 1.0 + 0.5 * max(at(s.primitive[Primitive::gruneisen], l), at(s.primitive[Primitive::gruneisen], n));
       const Star found = star(L, R, sound_L, sound_R, shock, sqrt(max(speed_at(l), speed_at(n))), least_mach_at(gas, a, n));
       // Gas at rest is so to the last bit.
@@ -332,7 +341,7 @@ void share_changes(Gas& gas) {
       const Lanes own = at(s.content[first(r) + Content::volume], n);
       majority[r] = (own == largest) & !given;
       given |= majority[r];
-      const Lanes wanted = at(s.primitive[Primitive::velocity + D + r], n);
+      const Lanes wanted = at(s.primitive[static_cast<std::size_t>(Primitive::share(gas.dimensions(), static_cast<int>(r)))], n);
       share[r] = select(majority[r], Lanes(0.0), limited_share(wanted, growth, open * own));
       rest -= share[r];
     }

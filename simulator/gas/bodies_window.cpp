@@ -149,8 +149,11 @@ void write_state(Gas& gas, const Filling& filling, const Index& cell, std::size_
   s.primitive[Primitive::density][n] = filling.density, s.primitive[Primitive::pressure][n] = filling.pressure;
   s.primitive[Primitive::sound_speed][n] = std::sqrt(eos::sound_speed_squared(law, filling.density, energy));
   s.primitive[Primitive::gruneisen][n] = eos::gruneisen_coefficient(law, filling.density, energy);
-  for (std::size_t r = 0; gas.fluids.size() > 1 && r < gas.fluids.size(); ++r)
-    s.primitive[Primitive::velocity + D + r][n] = static_cast<int>(r) == filling.fluid ? 1.0 : 0.0;
+  if (gas.fluids.size() == 1) return;
+  const int dimensions = gas.dimensions(), fluids = static_cast<int>(gas.fluids.size());
+  const auto at = [&](int quantity) -> double& { return s.primitive[static_cast<std::size_t>(quantity)][n]; };
+  for (int r = 0; r < fluids; ++r) at(Primitive::share(dimensions, r)) = r == filling.fluid ? 1.0 : 0.0;
+  at(Primitive::softness(dimensions, fluids)) = 1.0;
 }
 
 /// What lies beyond the box, axis by axis.

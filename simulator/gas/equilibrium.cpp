@@ -112,6 +112,36 @@ void share_heat(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>
   for (std::size_t r = 0; r < n; ++r) shares[r].internal += select(part > 0.0, lack[r] - part * lends[r], Lanes(0.0));
 }
 
+/// What a fluid of a cell holds beyond a thousand times its usual heat, and beyond what makes its own sound ten times as fast
+/// as the fastest waves of the step before (m/s; in foam they are far slower than the sound of the gas), goes to the others. A
+/// trace that is carried ahead of a front expands in the cells of low pressure there, keeps its energy, and is pressed together
+/// when the front comes: cell by cell it would grow hotter and thinner without end, and in detonating sticks it did so until
+/// nothing was left of its mass.
+void cool_traces(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, double fastest) {
+  constexpr double times = 10.0, usual_heats = 1e3;
+  constexpr double most_part = 2.0;  // of the energy, that a squared speed of sound, Gamma (Gamma + 1) e, may be
+  const double square = times * times * fastest * fastest;
+  for (std::size_t r = 0; r < fluids.size(); ++r) {
+    FluidShare<Lanes>& hot = shares[r];
+    const double usual = usual_heats * fluids[r].usual_heat;
+    const LanesMask suspicious = (most_part * hot.internal > square * hot.mass) & (hot.internal > usual * hot.mass) &
+                                 (hot.mass > 0.0) & (hot.volume > 0.0);
+    if (none(suspicious)) continue;
+    const Lanes density = select(suspicious, hot.mass / hot.volume, Lanes(fluids[r].usual_density)),
+                energy = select(suspicious, hot.internal / hot.mass, Lanes(fluids[r].usual_energy));
+    const Lanes gamma = slopes_of(fluids[r].equation_of_state, density, energy).per_energy / density;
+    const Lanes most = hot.mass * max(square / max(gamma * (gamma + 1.0), Lanes(1e-300)), Lanes(usual));
+    Lanes others(0.0);
+    for (const FluidShare<Lanes>& other : shares)
+      if (&other != &hot) others += other.mass;
+    const Lanes excess = select(suspicious & (others > 0.0), max(hot.internal - most, Lanes(0.0)), Lanes(0.0));
+    if (none(excess > 0.0)) continue;
+    hot.internal -= excess;
+    for (FluidShare<Lanes>& other : shares)
+      if (&other != &hot) other.internal += excess * other.mass / max(others, Lanes(1e-300));
+  }
+}
+
 struct Largest {
   double wave = 0.0, motion = 0.0;
 };
@@ -122,6 +152,8 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
   Largest largest;
   std::vector<FluidShare<Lanes>> shares(fluids);
   const double inverse_cell_size = 1.0 / gas.cells.cell_size;
+  const double fastest =
+      gas.wave_rate > 0.0 ? gas.wave_rate * gas.cells.cell_size : 1e150;  // nobody knows before the first step
   for (int k = 0; k < gas.cells.packs(); ++k) {
     const std::uint8_t inside = cells_inside(gas.cells, block, k);
     if (inside == 0) continue;
@@ -164,6 +196,7 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
       Lanes heat = select(active, internal, shares[0].internal);
       for (std::size_t r = 0; r < fluids; ++r) heat -= shares[r].internal;
       share_heat(gas.fluids, shares, heat);
+      cool_traces(gas.fluids, shares, fastest);
       pressure = equilibrate(gas.fluids, shares, space);
       Lanes compliance(0.0);
       for (std::size_t r = 0; r < fluids; ++r) {
@@ -217,7 +250,7 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
   Lanes pressure(0.0), weight(0.0), lowest(1e300), highest(-1e300), least(-1e300), stiffest(0.0);
   // Fluids next to without volume are left alone; their lanes compute with the numbers of the first fluid there is.
   for (std::size_t r = 0; r < n; ++r) {
-    present[r] = shares[r].volume > least_fraction * room;
+    present[r] = (shares[r].volume > least_fraction * room) & (shares[r].mass > 0.0);
     m[r] = select(present[r], shares[r].mass, Lanes(0.0));
     v0[r] = v[r] = select(present[r], shares[r].volume / shares[r].mass, Lanes(1.0 / fluids[r].usual_density));
     e0[r] = select(present[r], shares[r].internal / shares[r].mass, Lanes(fluids[r].usual_energy));

@@ -83,15 +83,12 @@ void load_states(const Gas& gas, std::size_t block, int axis, int n, FaceStates<
   load<D>(gas.cells, gas.half_step, block, HalfStep::velocity + axis, axis, n, s.half_velocity);
 }
 
-/// Part of the impedances of a pencil's cells that their waves have. Drops in a gas, or a gas that stands beside a liquid in a
-/// cell, are no foam: with the impedance of foam three cells at the edge of a liquid would take hundreds of steps to come to
-/// the pressure about them. Their waves are those of the fluids, by their parts of the compressibility. Softer waves even out
-/// pressures faster; faster than in a cell through which sound just passes in the step they would overshoot.
+/// Part of the impedances of a pencil's cells that their waves have.
 template <int D>
 void load_softness(const Gas& gas, std::size_t block, int axis, int n, double dt, FaceStates<D>& s) {
   load<D>(gas.cells, gas.primitive, block, Primitive::softness(D, static_cast<int>(gas.fluids.size())), axis, n, s.softness);
   for (std::size_t c = ring - 1; c <= ring + line; ++c)
-    s.softness[c] = max(s.softness[c], min(Lanes((2.0 * D * dt / gas.cells.cell_size) * s.sound[c]), Lanes(1.0)));
+    s.softness[c] = softness_in_step(s.softness[c], s.sound[c], D * dt / gas.cells.cell_size);
 }
 
 /// Velocity and pressure of the faces of a pencil, by the waves between its cells.

@@ -404,26 +404,6 @@ TEST(RiemannProblem, OfColdProductsDoesWithoutSlopesWhereTheyWouldCoolBelowTheCo
   EXPECT_LT(set_up::relative_change(mass, after.mass[1]), round_off);
 }
 
-/// The front of products that rush into air is a cell that both share. It used to be emptied until what was left in it was at
-/// 1e14 J/kg and more, and ten thousand steps led to 16 us.
-TEST(Charge, ThatExpandsIntoAirDoesNotEmptyTheCellsAtItsFront) {
-  constexpr double h = 5e-3, radius = 0.08, end = 40e-6;
-  constexpr int cells = 60, most_steps = 600;  // it takes 300
-  const auto domain = single_process();
-  Gas gas = set_up::box(Geometry::axisymmetric, h, {}, {cells, cells, 0}, {air, products}, *domain);
-  gas.edges.assign(4, set_up::wall());
-  fill(
-      gas,
-      [&](const Vector& x, double) {
-        return magnitude(x) < radius ? Filling{1, 1838.0, 1.2e10, {}} : Filling{0, 1.2, 1e5, {}};
-      },
-      *domain);
-  Stepper stepper;
-  while (gas.time < end && gas.step < most_steps) stepper.steps(gas, 20, *domain);
-  EXPECT_GE(gas.time, end);
-  RecordProperty("steps", std::to_string(gas.step));
-}
-
 TEST(RiemannProblem, AtRandomHasThePlateauOfTheExactSolution) {
   std::mt19937 random(11);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
