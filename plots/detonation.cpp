@@ -1,6 +1,6 @@
 // Rate sticks of ANFO against experiment: runs sticks of several radii, writes the table and the figure of the velocities.
 //   detonation [--radius MM]... [--cell-size MM]... [-o DIR]
-// Cells of 0.5 mm unless others are given: at 0.25 mm the velocities change by less than 1 %.
+// Cells of 0.5 mm unless others are given: at 0.25 mm the velocities change by 1 % and less.
 
 #include <fmt/format.h>
 

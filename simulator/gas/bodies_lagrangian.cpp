@@ -316,6 +316,7 @@ void share_changes(Gas& gas) {
   StepFields& s = gas.bodies.fields;
   const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
   const auto first = [&](std::size_t r) { return Content::momentum + D + 3 * r; };
+  const auto first_share = static_cast<std::size_t>(Primitive::share(gas.dimensions(), 0));
   for_each_eight(w, [&](std::size_t n) {
     const Lanes volume = at(bodies.space.volume, n), open = volume / whole_volumes(gas.cells, w, n);
     Lanes mass(0.0), kinetic_before(0.0), kinetic(0.0), carried(0.0);
@@ -341,7 +342,7 @@ void share_changes(Gas& gas) {
       const Lanes own = at(s.content[first(r) + Content::volume], n);
       majority[r] = (own == largest) & !given;
       given |= majority[r];
-      const Lanes wanted = at(s.primitive[static_cast<std::size_t>(Primitive::share(gas.dimensions(), static_cast<int>(r)))], n);
+      const Lanes wanted = at(s.primitive[first_share + r], n);
       share[r] = select(majority[r], Lanes(0.0), limited_share(wanted, growth, open * own));
       rest -= share[r];
     }
