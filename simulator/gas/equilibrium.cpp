@@ -399,7 +399,7 @@ bool all_cells_hold_heat(Gas& gas, const CellSet& content) {
   return std::all_of(good.begin(), good.end(), [](char g) { return g != 0; });
 }
 
-void find_equilibrium(Gas& gas) {
+void find_equilibrium(Gas& gas, Domain& domain) {
   std::vector<Largest> largest(gas.cells.mine.size());
   parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
     const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
@@ -412,6 +412,7 @@ void find_equilibrium(Gas& gas) {
     gas.wave_rate = l.wave < gas.wave_rate ? gas.wave_rate : l.wave;
     gas.motion_rate = std::max(gas.motion_rate, l.motion);
   }
+  gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
 }
 
 void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell, std::span<const Portion> portions) {

@@ -38,8 +38,8 @@ void give_usual_state(Fluid& fluid);
 /// Whether the energy of each own cell exceeds its motion and what its fluids have at T = 0; cells that fail are marked.
 bool all_cells_hold_heat(Gas& gas, const CellSet& content);
 
-/// Primitives of all own blocks, with the largest rates of waves and motion.
-void find_equilibrium(Gas& gas);
+/// Primitives of all own blocks, with the largest rates of waves and motion of all ranks: what traces may hold depends on them.
+void find_equilibrium(Gas& gas, Domain& domain);
 
 /// Content of a cell by its portions; content and primitives of a cell of one fluid.
 void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell, std::span<const Portion> portions);

@@ -128,8 +128,7 @@ void fill_in_portions(Gas& gas, const PortionsFunction& portions, Domain& domain
 
 void begin(Gas& gas, Domain& domain) {
   if (gas.classic) return timed(gas, Phase::classic, [&] { show_classic(gas, domain); });
-  timed(gas, Phase::equilibrium, [&] { find_equilibrium(gas); });
-  gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
+  timed(gas, Phase::equilibrium, [&] { find_equilibrium(gas, domain); });
   timed(gas, Phase::ghosts, [&] { share_primitives(gas, gas.time, domain); });
   timed(gas, Phase::transport, [&] { prepare_transport(gas, domain); });
 }
@@ -187,7 +186,7 @@ Outcome advance_fluids(Gas& gas, double dt, Domain& domain) {
   }
   if (gas.careful) gas.plain += forget_plain_cells(gas);
   timed(gas, Phase::ghosts, [&] { with_bodies ? settle_with_bodies(gas, dt, domain) : settle(gas); });
-  if (with_bodies) timed(gas, Phase::reaction, [&] { react_around_bodies(gas, dt); });
+  if (with_bodies) timed(gas, Phase::reaction, [&] { react_around_bodies(gas, dt, domain); });
   timed(gas, Phase::ghosts, [&] { book_step(gas.passages); });
   gas.time += dt, ++gas.step;
   begin(gas, domain);
@@ -341,7 +340,7 @@ std::vector<double> numbers_of(const Gas& gas) {
 void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
   if (numbers.size() != numbers_of(gas).size() || numbers[5] != static_cast<double>(gas.cells.mine.size()) ||
       numbers[6] != static_cast<double>(gas.contents()))
-    throw std::runtime_error("its gas is of another case");
+    throw std::runtime_error("its gas is of another case or another version of this program");
   const double* next = numbers.data();
   gas.time = next[0], gas.step = static_cast<std::int64_t>(next[1]), gas.wave_rate = next[2], gas.motion_rate = next[3];
   gas.flattened = static_cast<std::int64_t>(next[4]), gas.plain = static_cast<std::int64_t>(next[7]);

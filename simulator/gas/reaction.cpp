@@ -352,9 +352,9 @@ void burn_cells(Gas& gas, std::size_t number, double dt, Domain& domain) {
   if (has_surface(gas.burns[number].law)) release(gas, number, domain);
 }
 
-void react_around_bodies(Gas& gas, double dt) {
+void react_around_bodies(Gas& gas, double dt, Domain& domain) {
   if (gas.burns.empty()) return;
-  find_equilibrium(gas);
+  find_equilibrium(gas, domain);
   for (std::size_t number = 0; number < gas.burns.size(); ++number) burn_blocks(gas, gas.content, number, dt);
 }
 

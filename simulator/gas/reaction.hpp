@@ -25,7 +25,7 @@ void prepare_burns(Gas& gas);
 void react(Gas& gas, double dt, Domain& domain);
 /// The same of bulk reactions around bodies, after the step and before its time is booked: of what the cells hold then, at its
 /// pressure, for the remap of a step with bodies leaves no cell to burn in between.
-void react_around_bodies(Gas& gas, double dt);
+void react_around_bodies(Gas& gas, double dt, Domain& domain);
 /// The same of one reaction, of a surface as large as gas.burning_area says.
 void burn_cells(Gas& gas, std::size_t number, double dt, Domain& domain);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
 #include "tests/simulator/gas/set_up.hpp"
+#include "tests/simulator/virtual_ranks.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -78,12 +81,39 @@ TEST(Trace, DoesNotStayHotterThanAnyWaveMadeIt) {
   EXPECT_GT(energy(), 1e23);
   // What it gives away, the pressure about it gives back in part: a thinner bubble every time.
   constexpr int times = 60;
-  for (int n = 0; n < times; ++n) find_equilibrium(gas);
+  for (int n = 0; n < times; ++n) find_equilibrium(gas, *domain);
   const double fastest = gas.wave_rate * gas.cells.cell_size, gamma = 0.4;
   EXPECT_LT(gamma * (gamma + 1.0) * energy(), 110.0 * fastest * fastest);
   const Totals after = totals(gas, *domain);
   EXPECT_LT(set_up::relative_change(before.energy, after.energy), 1e-13);
   EXPECT_LT(set_up::relative_change(before.mass[1], after.mass[1]), 1e-15);
+}
+
+/// How hot a trace may be depends on the fastest waves of all, wherever they are: of those of its own rank it would be cooled.
+TEST(Trace, HasTheSameBitsOnEveryNumberOfRanks) {
+  const auto energies_after = [](int ranks) {
+    std::map<std::array<int, 3>, double> energies;
+    std::mutex one_at_a_time;
+    VirtualRanks::run(ranks, [&](std::shared_ptr<Domain> domain) {
+      Gas gas = set_up::box(Geometry::planar_1d, 1e-3, {}, {256, 0, 0}, {water, air}, *domain);
+      constexpr double pressure = 1e9;  // Pa
+      fill_in_portions(
+          gas,
+          [&](const Vector& x) {
+            if (x[0] > 0.2) return std::vector<Portion>{{1.0, Filling{1, 0.01, pressure, {}}}};  // sound of 370 km/s
+            return std::vector<Portion>{{0.99, Filling{0, 1200.0, pressure, {}}}, {0.01, Filling{1, 2.5e-4, pressure, {}}}};
+          },
+          *domain);
+      for (int n = 0; n < 2; ++n) find_equilibrium(gas, *domain);  // twice in a step of reactions around bodies
+      const std::lock_guard lock(one_at_a_time);
+      const int internal = Content::fluids(1) + 3 + Content::internal;
+      set_up::for_each_cell(gas,
+                            [&](const set_up::Cell& c) { energies[c.index] = gas.content.cell(c.block, internal, c.number); });
+    });
+    return energies;
+  };
+  const auto one = energies_after(1);
+  for (const int ranks : {2, 4}) EXPECT_TRUE(energies_after(ranks) == one) << ranks << " ranks";
 }
 
 TEST(Equilibrium, LeavesAFluidAloneThatHasVolumeButNoMass) {
