@@ -57,9 +57,11 @@ std::string value_text(const TomlNode& node) {
   if (const auto* const integer = std::get_if<std::int64_t>(&node.value)) return std::to_string(*integer);
   if (const auto* const flag = std::get_if<bool>(&node.value)) return *flag ? "true" : "false";
   if (const auto* const text = std::get_if<std::string>(&node.value)) return in_quotes(*text);
-  std::string list;
-  for (const TomlNode& element : std::get<TomlList>(node.value)) list += (list.empty() ? "" : ", ") + value_text(element);
-  return '[' + list + ']';
+  const auto* const list = std::get_if<TomlList>(&node.value);
+  if (!list) return kind_of(node);  // which no case that has been run holds
+  std::string elements;
+  for (const TomlNode& element : *list) elements += (elements.empty() ? "" : ", ") + value_text(element);
+  return '[' + elements + ']';
 }
 void collect(const TomlNode& node, const std::string& path, Values& values) {
   const auto* const list = std::get_if<TomlList>(&node.value);

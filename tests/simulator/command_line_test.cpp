@@ -139,6 +139,16 @@ TEST(RunCommand, RefusesADirectoryThatHoldsSomethingElse) {
   EXPECT_EQ(call({"run", file, "-o", file}).code, bad_input) << "a file is no directory";
 }
 
+/// Whatever it holds: dates, and tables in lists of something else, are in no case that has been run.
+TEST(RunCommand, SaysHowAnyOtherFileDiffers) {
+  const fs::path directory = scratch();
+  const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string();
+  write_text(directory / "case.toml", "day = 1979-05-27\nmixed = [1, { a = 1 }]\n");
+  const Answer a = call({"run", file, "-o", directory.string()});
+  EXPECT_EQ(a.code, bad_input);
+  EXPECT_TRUE(contains(a.err, "holds a run of another case: ")) << a.err;
+}
+
 /// However its values were set, and to whatever end it has been resumed.
 TEST(RunCommand, KnowsTheSameCaseAgain) {
   const fs::path directory = scratch();
