@@ -15,14 +15,15 @@
 
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "tests/command_line.hpp"
+#include "tests/simulator/gas/fluids.hpp"
 #include "tests/simulator/gas/set_up.hpp"
 #include "tests/simulator/virtual_ranks.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
 
-const Fluid air = {"air", equation_of_state::IdealGas{1.4, 718.0}};
-const Fluid water = {"water", equation_of_state::StiffenedGas{4.4, 6e8, 1000.0}};
+using set_up::air;
+using set_up::water;
 
 constexpr int cells_across = 20;
 constexpr double h = 0.05;

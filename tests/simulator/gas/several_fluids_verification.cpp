@@ -20,17 +20,17 @@
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/lagrangian.hpp"
 #include "tests/simulator/gas/exact_riemann.hpp"
+#include "tests/simulator/gas/fluids.hpp"
 #include "tests/simulator/gas/set_up.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
 
 namespace eos = equation_of_state;
+using set_up::air;
+using set_up::products;
 using set_up::Stepper;
-
-const Fluid air = {"air", eos::IdealGas{1.4, 718.0}};
-const Fluid water = {"water", eos::StiffenedGas{4.4, 6e8, 1000.0}};
-const Fluid products = {"products", eos::JonesWilkinsLee{1838.0, 1668.9e9, 59.69e9, 5.9, 2.1, 0.45, 594.96, 10.2e9}};
+using set_up::water;
 
 /// BRISANCE_LONG_TESTS makes all of the samples that the programs otherwise make a part of.
 bool long_tests() {

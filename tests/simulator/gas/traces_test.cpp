@@ -12,18 +12,17 @@
 #include "simulator/setup.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
+#include "tests/simulator/gas/fluids.hpp"
 #include "tests/simulator/gas/set_up.hpp"
 #include "tests/simulator/virtual_ranks.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
 
-namespace eos = equation_of_state;
+using set_up::air;
+using set_up::products;
 using set_up::Stepper;
-
-const Fluid air = {"air", eos::IdealGas{1.4, 718.0}};
-const Fluid water = {"water", eos::StiffenedGas{4.4, 6e8, 1000.0}};
-const Fluid products = {"products", eos::JonesWilkinsLee{1838.0, 1668.9e9, 59.69e9, 5.9, 2.1, 0.45, 594.96, 10.2e9}};
+using set_up::water;
 
 /// The front of products that rush into air is a cell that both share. It used to be emptied until what was left in it was at
 /// 1e14 J/kg and more, and ten thousand steps led to 16 us.
