@@ -137,7 +137,7 @@ int run_all(const std::vector<std::string>& names, const std::filesystem::path& 
     ball->checks.push_back(
         {"peak over that on a radius", value(*ball, peak_density) / value(*on_radius, peak_density), 0.85, true});
   }
-  if (runs.empty()) throw std::invalid_argument("gas: no run of that name; `--list` shows all");
+  if (runs.empty()) throw std::invalid_argument("gas: no run of these names; `--list` shows all");
   if (names.empty()) {
     std::filesystem::create_directories(output);
     replace_file_by_text(output / "gas.md", table(runs));

@@ -262,7 +262,7 @@ int run_all(const std::vector<std::string>& names, bool full, const std::filesys
     if (result.ending == Ending::failed) return 1;
     runs.push_back({e, ran.config, result.summary, {profile_of(ran.simulation, ran.simulation.bodies[0], Axis::y)}});
   }
-  if (runs.empty()) throw std::invalid_argument("taylor: no run of that name; `--list` shows all");
+  if (runs.empty()) throw std::invalid_argument("taylor: no run of these names; `--list` shows all");
   std::filesystem::create_directories(output);
   const std::vector<Check> statements = checks(runs);
   const std::string text = table(runs, commit_hash()) + table(statements);

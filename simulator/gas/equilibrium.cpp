@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "models/equation_of_state/thermodynamics.hpp"
@@ -23,13 +25,23 @@ double least_bulk_modulus(const EquationOfState& law, double density) {
   return density * std::max(c * c, 1e-12);
 }
 
+/// Whether the cells hold a fluid; what is next to without volume, or has no mass, is left alone.
+LanesMask is_present(const FluidShare<Lanes>& fluid, const Lanes& room) {
+  return (fluid.volume > least_fraction * room) & (fluid.mass > 0.0);
+}
+
+/// One value for each fluid, on the stack as a rule. Boost's own allocator does not align packs.
+template <class T>
+using OfFluids = boost::container::small_vector<T, 8, std::allocator<T>>;
+
 /// One lane, with certainty: the volume that the fluids take at a pressure falls with it, and the pressures they have now
 /// bracket the one sought.
-double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, double room, int l) {
+double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const OfFluids<LanesMask>& present,
+              double room, int l) {
   double low = std::numeric_limits<double>::infinity(), high = -low, least = -low;
   for (std::size_t r = 0; r < fluids.size(); ++r) {
     const double m = shares[r].mass[l], v = shares[r].volume[l];
-    if (!(v > least_fraction * room)) continue;
+    if (!present[r][l]) continue;
     const double p = eos::pressure(fluids[r].equation_of_state, m / v, shares[r].internal[l] / m);
     low = std::min(low, p), high = std::max(high, p);
     least = std::max(least, fluids[r].least_pressure);
@@ -52,13 +64,13 @@ double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& 
     const double p = 0.5 * (low + high);
     double sum = 0.0;
     for (std::size_t r = 0; r < fluids.size(); ++r)
-      if (shares[r].volume[l] > least_fraction * room) sum += volume_at(r, p);
+      if (present[r][l]) sum += volume_at(r, p);
     (sum > room ? low : high) = p;
   }
   const double p = 0.5 * (low + high);
   for (std::size_t r = 0; r < fluids.size(); ++r) {
     const double before = shares[r].volume[l];
-    if (!(before > least_fraction * room)) continue;
+    if (!present[r][l]) continue;
     const double now = volume_at(r, p);
     shares[r].internal.set(l, shares[r].internal[l] - p * (now - before));
     shares[r].volume.set(l, now);
@@ -204,17 +216,14 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
         Lanes& volume = gas.content.at(block, first + Content::volume)[k];
         Lanes& energy = gas.content.at(block, first + Content::internal)[k];
         volume = select(active, shares[r].volume, volume), energy = select(active, shares[r].internal, energy);
-        const Lanes share =
-            select(shares[r].volume > least_fraction * room, shares[r].volume / shares[r].bulk_modulus, Lanes(0.0));
-        compliance += share;
+        compliance += select(is_present(shares[r], room), shares[r].volume / shares[r].bulk_modulus, Lanes(0.0));
         gruneisen += shares[r].volume / room * shares[r].gruneisen;
       }
       // The square of a fluid's impedance over the cell's is its part of the mass over that of the compressibility.
       Lanes softness(0.0);
       for (std::size_t r = 0; r < fluids; ++r) {
         Lanes& share = gas.primitive.at(block, Primitive::share(D, static_cast<int>(r)))[k];
-        share = select(shares[r].volume > least_fraction * room, shares[r].volume / (shares[r].bulk_modulus * compliance),
-                       Lanes(0.0));
+        share = select(is_present(shares[r], room), shares[r].volume / (shares[r].bulk_modulus * compliance), Lanes(0.0));
         softness += sqrt(share * shares[r].mass / mass);
       }
       gas.primitive.at(block, Primitive::softness(D, static_cast<int>(fluids)))[k] = min(softness, Lanes(1.0));
@@ -244,13 +253,14 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
 Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room,
                   EquilibriumCount* count) {
   const std::size_t n = fluids.size();
-  constexpr std::size_t most = 16;
-  std::array<Lanes, most> v, v0, e0, m;
-  std::array<LanesMask, most> present;
+  OfFluids<Lanes> v(n), v0(n), e0(n), m(n), residual(n), stiffness(n), push(n);
+  OfFluids<LanesMask> present(n);
   Lanes pressure(0.0), weight(0.0), lowest(1e300), highest(-1e300), least(-1e300), stiffest(0.0);
+  Lanes space = room;  // for those that are present
   // Fluids next to without volume are left alone; their lanes compute with the numbers of the first fluid there is.
   for (std::size_t r = 0; r < n; ++r) {
-    present[r] = (shares[r].volume > least_fraction * room) & (shares[r].mass > 0.0);
+    present[r] = is_present(shares[r], room);
+    space -= select(present[r], Lanes(0.0), shares[r].volume);
     m[r] = select(present[r], shares[r].mass, Lanes(0.0));
     v0[r] = v[r] = select(present[r], shares[r].volume / shares[r].mass, Lanes(1.0 / fluids[r].usual_density));
     e0[r] = select(present[r], shares[r].internal / shares[r].mass, Lanes(fluids[r].usual_energy));
@@ -275,7 +285,6 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
   constexpr int most_iterations = 15;
   for (int i = 0; i < most_iterations && !all(done); ++i) {
     // Newton for all volumes and the pressure at once: the matrix is an arrow.
-    std::array<Lanes, most> residual, stiffness, push;
     Lanes sum(0.0), free(0.0), slope(0.0);
     for (std::size_t r = 0; r < n; ++r) {
       const auto at = slopes_of(fluids[r].equation_of_state, Lanes(1.0 / v[r]), Lanes(e0[r] - pressure * (v[r] - v0[r])));
@@ -285,7 +294,7 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
       push[r] = 1.0 + at.per_energy * (v[r] - v0[r]);
       sum += m[r] * v[r], free += m[r] * residual[r] / stiffness[r], slope += m[r] * push[r] / stiffness[r];
     }
-    const Lanes step = (free + sum - room) / slope;
+    const Lanes step = (free + sum - space) / slope;
     const Lanes next = min(max(Lanes(pressure + step), lowest), highest);
     Lanes largest(0.0);
     for (std::size_t r = 0; r < n; ++r) {
@@ -300,6 +309,11 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
     pressure = select(done, pressure, next);
     done |= (moved <= tolerance) & (largest <= 1e2 * tolerance);
   }
+  // A trace that any pressure suits hides in the mean that the others have not come to theirs.
+  Lanes unfilled = space;
+  for (std::size_t r = 0; r < n; ++r) unfilled -= m[r] * v[r];
+  constexpr double leak = 1e-9;  // of the room
+  done &= abs(unfilled) <= leak * room;
   if (count) count->cells += 8.0;
   Lanes largest_volume(0.0), volumes(0.0), energies(0.0), before(0.0);
   for (std::size_t r = 0; r < n; ++r) before += select(present[r], shares[r].internal, Lanes(0.0));
@@ -313,20 +327,19 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
     if (done[l] || !std::isfinite(room[l]) || !std::isfinite(pressure[l])) continue;
     for (std::size_t r = 0; r < n; ++r)
       shares[r].internal.set(l, original[r].internal[l]), shares[r].volume.set(l, original[r].volume[l]);
-    pressure.set(l, bisect(fluids, shares, room[l], l));
+    pressure.set(l, bisect(fluids, shares, present, space[l], l));
     if (count) count->bisected += 1.0;
   }
   // What rounding left over goes to the fluid with most volume.
-  std::array<LanesMask, most> majority;
   for (std::size_t r = 0; r < n; ++r)
     volumes += shares[r].volume, energies += select(present[r], shares[r].internal, Lanes(0.0)),
         largest_volume = max(largest_volume, shares[r].volume);
   LanesMask taken(false);
   for (std::size_t r = 0; r < n; ++r) {
-    majority[r] = (shares[r].volume == largest_volume) & !taken;
-    taken |= majority[r];
-    shares[r].volume = select(majority[r], shares[r].volume + (room - volumes), shares[r].volume);
-    shares[r].internal = select(majority[r], shares[r].internal + (before - energies), shares[r].internal);
+    const LanesMask majority = (shares[r].volume == largest_volume) & !taken;
+    taken |= majority;
+    shares[r].volume = select(majority, shares[r].volume + (room - volumes), shares[r].volume);
+    shares[r].internal = select(majority, shares[r].internal + (before - energies), shares[r].internal);
     const Lanes density = select(present[r], shares[r].mass / shares[r].volume, Lanes(fluids[r].usual_density));
     const Lanes energy = select(present[r], shares[r].internal / shares[r].mass, Lanes(fluids[r].usual_energy));
     const auto at = slopes_of(fluids[r].equation_of_state, density, energy);
