@@ -487,6 +487,12 @@ class CaseReader : public KeyReader<CaseReader> {
         if (!(gauge.from[k] < gauge.to[k]))
           in.problem("to",
                      fmt::format("along {} the box ends before it begins; give it a thickness of about a cell", axis_names[k]));
+    for (std::size_t k = 0; gauge.kind == GaugeKind::surface && gauge.axis && k < dimensions(); ++k)
+      if (static_cast<std::size_t>(*gauge.axis) != k && std::abs(gauge.to[k] - gauge.from[k]) < case_.cell_size)
+        in.problem("to",
+                   fmt::format("along {} the surface is sought between {} and {}, which is less than a cell: there may be "
+                               "no particle",
+                               axis_names[k], in_metres(gauge.from[k]), in_metres(gauge.to[k])));
     if (gauge.kind == GaugeKind::point) {
       if (gauge.to != Vector{}) in.problem("to", "it would be ignored: a point is where `from` says");
     } else if (gauge.from == gauge.to) {

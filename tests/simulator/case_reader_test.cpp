@@ -83,7 +83,7 @@ name = "face"
 kind = "surface"
 fields = ["velocity"]
 from = [0, 0, 0]
-to = [0, "1 mm", 0]
+to = ["1 mm", "1 mm", 0]
 axis = "z"
 side = "below"
 [[measure]]

@@ -114,6 +114,11 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
        "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"surface\"\nfrom = [0, 0]\nto = [1, 1]\nfields = [\"pressure\"]",
        "gauge.0.axis: missing: the direction in which the surface is sought"},
       {"side = \"above\"\n",
+       "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"surface\"\naxis = \"y\"\nfrom = [1e-4, 0]\nfields = "
+       "[\"velocity\"]",
+       "gauge.0.to: along x the surface is sought between 0.0001 m and 0 m, which is less than a cell: there may be no "
+       "particle"},
+      {"side = \"above\"\n",
        "side = \"above\"\n[[gauge]]\nname = \"tip\"\nkind = \"surface\"\naxis = \"y\"\nmoves = true\nfrom = [0, 0]\nto = [1, "
        "1]\nfields = [\"pressure\"]",
        "gauge.0.moves: it would be ignored: a surface is where the material ends"},
