@@ -645,8 +645,9 @@ void place_in_file(std::vector<Problem>& problems, const std::vector<MaterialCha
       }
 }
 
-/// Adds what --set has changed: "key=value", each key once. Title and subtitle show themselves.
-void remember(std::vector<std::string>& set, const std::vector<std::string>& overrides) {
+/// Adds what --set has changed: "key=value", each key once. Title and subtitle show themselves; the memory itself is not to be
+/// set.
+void remember(std::vector<std::string>& set, const std::vector<std::string>& overrides, std::vector<Problem>& problems) {
   const auto trimmed = [](std::string text) {
     text.erase(0, text.find_first_not_of(" \t"));
     text.erase(text.find_last_not_of(" \t") + 1);
@@ -657,6 +658,10 @@ void remember(std::vector<std::string>& set, const std::vector<std::string>& ove
     if (equals == std::string::npos) continue;  // a problem already
     const std::string key = trimmed(assignment.substr(0, equals));
     if (key == "title" || key == "subtitle") continue;
+    if (key == "set") {
+      problems.push_back({"--set set", 0, 0, "", "a run writes it itself; set the keys that it would name"});
+      continue;
+    }
     std::erase_if(set, [&](const std::string& earlier) { return earlier.starts_with(key + '='); });
     set.push_back(key + '=' + trimmed(assignment.substr(equals + 1)));
   }
@@ -672,8 +677,8 @@ Case read_case(const Path& file, const std::vector<std::string>& overrides) {
   TableReader top = input.top();
   Case result = CaseReader().read(top);
   result.file = file;
-  remember(result.set, overrides);
   std::vector<Problem> problems = input.problems();
+  remember(result.set, overrides, problems);
   place_in_file(problems, changes, file);
   if (!problems.empty()) throw InputError(std::move(problems));
   return result;

@@ -30,6 +30,10 @@ class Describer : public KeyDescriber<Describer> {
             " (its part of the volume, of several fluids)",
         std::move(default_value), words);
   }
+  /// The only list of texts that names no fields.
+  void describe(const std::string& path, const Key<Case, std::vector<std::string>>& key, const std::vector<std::string>&) {
+    add(path, key, "a list of texts such as \"cell_size=1 mm\"");
+  }
   template <class K>
   void describe(const std::string& path, const K& key, const std::vector<std::string>&) {
     const std::span all(gauge_fields);

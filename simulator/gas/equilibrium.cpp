@@ -324,7 +324,7 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
     shares[r].volume = select(present[r], m[r] * v[r], shares[r].volume);
   }
   for (int l = 0; l < 8 && !all(done); ++l) {
-    if (done[l] || !std::isfinite(room[l]) || !std::isfinite(pressure[l])) continue;
+    if (done[l] || !std::isfinite(room[l])) continue;
     for (std::size_t r = 0; r < n; ++r)
       shares[r].internal.set(l, original[r].internal[l]), shares[r].volume.set(l, original[r].volume[l]);
     pressure.set(l, bisect(fluids, shares, present, space[l], l));

@@ -242,6 +242,11 @@ TEST(CaseReader, AWrittenCaseHoldsEveryKey) {
   }
 }
 
+TEST(CaseReader, WhatHasBeenSetIsNotToBeSet) {
+  EXPECT_EQ(problems_of(small_bar(""), {"set=[\"cell_size=1 mm\"]"}),
+            "--set set: a run writes it itself; set the keys that it would name");
+}
+
 TEST(CaseReader, OverridesReachIntoMaterialFiles) {
   const auto strength = [](const Case& c) {
     return std::get<flow_stress::MechanicalThresholdStress>(c.bodies.at(0).material.material.flow_stress.value())
@@ -343,7 +348,10 @@ TEST(Keys, DescribesByPathAndByName) {
   ASSERT_EQ(by_name.size(), 1u);
   EXPECT_EQ(by_name[0].default_value, "required");
   EXPECT_EQ(by_name[0].values, "a number in m or a text such as \"25.4 mm\", > 0");
-  EXPECT_EQ(find_keys(all_keys(), "gates").size(), 4u);  // the table and its three keys
+  const auto set = find_keys(all_keys(), "set");
+  ASSERT_EQ(set.size(), 1u);
+  EXPECT_EQ(set[0].values, "a list of texts such as \"cell_size=1 mm\"");  // no names of fields
+  EXPECT_EQ(find_keys(all_keys(), "gates").size(), 4u);                    // the table and its three keys
   EXPECT_EQ(find_keys(all_keys(), "friction").size(), 1u);
   EXPECT_TRUE(find_keys(all_keys(), "frictoin").empty());
   EXPECT_EQ(did_you_mean("frictoin", names_of(all_keys())), "; did you mean \"friction\"?");

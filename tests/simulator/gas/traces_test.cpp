@@ -45,7 +45,8 @@ TEST(Charge, ThatExpandsIntoAirDoesNotEmptyTheCellsAtItsFront) {
 }
 
 /// On these cells a trace of the air was carried along the side of the stick by its detonation, into the explosive ahead, and
-/// grew thinner and hotter from cell to cell: after 367 steps nothing was left of its mass, and no pressure was found.
+/// grew thinner and hotter from cell to cell: when shared cells had the impedance of foam, nothing was left of its mass after
+/// 367 steps, and no pressure was found.
 TEST(RateStick, DetonatesOnFineCells) {
   const Case c =
       read_case(std::string(BRISANCE_SOURCE_DIR) + "/data/cases/anfo_rate_stick.toml",
