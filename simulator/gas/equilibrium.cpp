@@ -6,6 +6,7 @@
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "models/equation_of_state/thermodynamics.hpp"
@@ -29,6 +30,9 @@ double least_bulk_modulus(const EquationOfState& law, double density) {
 LanesMask is_present(const FluidShare<Lanes>& fluid, const Lanes& room) {
   return (fluid.volume > least_fraction * room) & (fluid.mass > 0.0);
 }
+
+/// The jump of pressure, of the bulk modulus of the fluid of lowest pressure, that is relaxed before there is equilibrium.
+constexpr double crushing = 0.5;
 
 /// One value for each fluid, on the stack as a rule. Boost's own allocator does not align packs.
 template <class T>
@@ -250,30 +254,78 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
 
 }  // namespace
 
+void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room, int l) {
+  constexpr double bit = 0.1;  // of the volume
+  constexpr int most_bits = 100;
+  struct Extreme {
+    std::size_t fluid = 0;
+    double pressure = 0.0, bulk_modulus = 0.0;
+  };
+  const auto is_here = [&](const FluidShare<Lanes>& s) { return s.volume[l] > least_fraction * room[l] && s.mass[l] > 0.0; };
+  double all = 0.0;
+  for (const FluidShare<Lanes>& s : shares) all += is_here(s) ? s.mass[l] : 0.0;
+  for (int n = 0; n < most_bits; ++n) {
+    std::optional<Extreme> low, high;
+    for (std::size_t r = 0; r < fluids.size(); ++r) {
+      if (!is_here(shares[r])) continue;
+      const double density = shares[r].mass[l] / shares[r].volume[l];
+      const auto at = slopes_of(fluids[r].equation_of_state, density, shares[r].internal[l] / shares[r].mass[l]);
+      const Extreme own{r, at.pressure,
+                        std::max(density * at.per_density + at.pressure * at.per_energy / density,
+                                 least_bulk_modulus(fluids[r].equation_of_state, density))};
+      if (!low || own.pressure < low->pressure) low = own;
+      if (!high || own.pressure > high->pressure) high = own;
+    }
+    const double jump = low ? high->pressure - low->pressure : 0.0;
+    if (!(jump > crushing * (low ? low->bulk_modulus : 0.0))) return;
+    FluidShare<Lanes>&pressed = shares[low->fluid], &expands = shares[high->fluid];
+    const double a = pressed.volume[l], b = expands.volume[l], rise = low->bulk_modulus / a, fall = high->bulk_modulus / b;
+    const double dV = std::min(jump / (rise + fall), bit * std::min(a, b));
+    const double taken = (low->pressure + 0.5 * rise * dV) * dV, done = (high->pressure - 0.5 * fall * dV) * dV;
+    pressed.volume.set(l, a - dV), pressed.internal.set(l, pressed.internal[l] + taken);
+    expands.volume.set(l, b + dV), expands.internal.set(l, expands.internal[l] - done);
+    for (FluidShare<Lanes>& s : shares)
+      if (is_here(s)) s.internal.set(l, s.internal[l] + (done - taken) * s.mass[l] / all);
+  }
+}
+
 Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room,
                   EquilibriumCount* count) {
   const std::size_t n = fluids.size();
   OfFluids<Lanes> v(n), v0(n), e0(n), m(n), residual(n), stiffness(n), push(n);
   OfFluids<LanesMask> present(n);
-  Lanes pressure(0.0), weight(0.0), lowest(1e300), highest(-1e300), least(-1e300), stiffest(0.0);
-  Lanes space = room;  // for those that are present
+  Lanes pressure, weight, lowest, highest, least, stiffest, space;  // of those that are present
+  LanesMask crushed;
   // Fluids next to without volume are left alone; their lanes compute with the numbers of the first fluid there is.
-  for (std::size_t r = 0; r < n; ++r) {
-    present[r] = is_present(shares[r], room);
-    space -= select(present[r], Lanes(0.0), shares[r].volume);
-    m[r] = select(present[r], shares[r].mass, Lanes(0.0));
-    v0[r] = v[r] = select(present[r], shares[r].volume / shares[r].mass, Lanes(1.0 / fluids[r].usual_density));
-    e0[r] = select(present[r], shares[r].internal / shares[r].mass, Lanes(fluids[r].usual_energy));
-    const auto at = slopes_of(fluids[r].equation_of_state, Lanes(1.0 / v[r]), e0[r]);
-    const Lanes bulk = max(Lanes(at.per_density / v[r] + at.pressure * at.per_energy * v[r]),
-                           Lanes(least_bulk_modulus(fluids[r].equation_of_state, 1.0)) / v[r]);
-    shares[r].bulk_modulus = bulk, shares[r].gruneisen = at.per_energy * v[r];
-    const Lanes compliance = m[r] * v[r] / bulk;
-    pressure += select(present[r], compliance * at.pressure, Lanes(0.0)), weight += compliance;
-    lowest = select(present[r], min(lowest, at.pressure), lowest);
-    highest = select(present[r], max(highest, at.pressure), highest);
-    least = select(present[r], max(least, Lanes(fluids[r].least_pressure)), least);
-    stiffest = select(present[r], max(stiffest, bulk), stiffest);
+  const auto look = [&] {
+    pressure = weight = stiffest = Lanes(0.0), lowest = Lanes(1e300), highest = least = Lanes(-1e300);
+    space = room;
+    Lanes softest(1e300);
+    for (std::size_t r = 0; r < n; ++r) {
+      present[r] = is_present(shares[r], room);
+      space -= select(present[r], Lanes(0.0), shares[r].volume);
+      m[r] = select(present[r], shares[r].mass, Lanes(0.0));
+      v0[r] = v[r] = select(present[r], shares[r].volume / shares[r].mass, Lanes(1.0 / fluids[r].usual_density));
+      e0[r] = select(present[r], shares[r].internal / shares[r].mass, Lanes(fluids[r].usual_energy));
+      const auto at = slopes_of(fluids[r].equation_of_state, Lanes(1.0 / v[r]), e0[r]);
+      const Lanes bulk = max(Lanes(at.per_density / v[r] + at.pressure * at.per_energy * v[r]),
+                             Lanes(least_bulk_modulus(fluids[r].equation_of_state, 1.0)) / v[r]);
+      shares[r].bulk_modulus = bulk, shares[r].gruneisen = at.per_energy * v[r];
+      const Lanes compliance = m[r] * v[r] / bulk;
+      pressure += select(present[r], compliance * at.pressure, Lanes(0.0)), weight += compliance;
+      softest = select(present[r] & (at.pressure < lowest), bulk, softest);
+      lowest = select(present[r], min(lowest, at.pressure), lowest);
+      highest = select(present[r], max(highest, at.pressure), highest);
+      least = select(present[r], max(least, Lanes(fluids[r].least_pressure)), least);
+      stiffest = select(present[r], max(stiffest, bulk), stiffest);
+    }
+    crushed = highest - lowest > crushing * softest;
+  };
+  look();
+  if (any(crushed)) {
+    for (int l = 0; l < 8; ++l)
+      if (crushed[l]) relax(fluids, shares, room, l);
+    look();
   }
   pressure /= weight;
   // A liquid that pulls stretches a gas beside it, which cannot, to nothing: the gas would find another pressure below zero, at

@@ -1,7 +1,7 @@
 #pragma once
 // Pressure equilibrium: from what a cell holds to density, pressure, sound speed and the shares of its fluids in a change of
 // volume. One fluid: its equation of state. Several: the pressure at which their volumes fill the cell, each fluid doing work
-// against that pressure, so that the energy of the cell stays what it is.
+// against that pressure, so that the energy of the cell stays what it is; where pressures are far apart, along its isentrope.
 
 #include <span>
 
@@ -21,8 +21,15 @@ struct FluidShare {
 struct EquilibriumCount {
   double iterations = 0.0, cells = 0.0, bisected = 0.0;
 };
-/// Moves volumes and energies until all fluids have one pressure (Pa), which it returns. Work is done against that final
-/// pressure, so the sums of volumes and of energies do not change. Absent fluids (no mass) are left alone.
+/// One of eight cells, in which a fluid stands beside a pressure that crushes it (more than half of its own bulk modulus above
+/// its own), as air beside the products of a detonation: the fluid of lowest pressure gives room to that of the highest, bit by
+/// bit, each along its isentrope, and what the one does more work than the other takes warms all by mass. Work against the
+/// final pressure would leave all of it to the fluid that is pressed together: a little air in a cell full of products would
+/// get hundreds of times the energy that a shock gives it.
+void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room, int lane);
+/// Moves volumes and energies until all fluids have one pressure (Pa), which it returns. What is left of jumps when those that
+/// crush have been relaxed is work against that final pressure, so the sums of volumes and of energies do not change. Absent
+/// fluids (no mass) are left alone.
 Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room,
                   EquilibriumCount* count = nullptr);
 
