@@ -87,6 +87,31 @@ TEST(RunCommand, ACaseWithMistakesIsBadInput) {
   EXPECT_EQ(call({"--help"}).code, done);
 }
 
+TEST(CommandLine, SaysWhatIsMeantByAWordThatItDoesNotTake) {
+  EXPECT_TRUE(contains(call({"run", "sod", "--set", "end_time=12", "us", "--overwrite"}).err,
+                       "run: \"us\" was not expected; a value with spaces stands in quotes: --set \"end_time=12 us\"\n"));
+  EXPECT_EQ(call({"check", "sod", "foo"}).err, "check: \"foo\" was not expected\n") << "it follows no option";
+  const Answer a = call({"resume", "bar_run", "--untli=3", "us"});
+  EXPECT_EQ(a.code, bad_input);
+  EXPECT_EQ(a.err, "resume: \"--untli\" is no option; there are --help, --until, --threads; did you mean \"--until\"?\n");
+  EXPECT_TRUE(contains(call({"--versoin"}).err, "did you mean \"--version\"?"));
+}
+
+TEST(CommandLine, ListsTheCommandsWhereNoneIsGiven) {
+  const Answer a = call({});
+  EXPECT_EQ(a.code, bad_input);
+  EXPECT_EQ(a.out, "");
+  for (const char* command : {"run", "check", "resume", "report", "list", "describe"})
+    EXPECT_TRUE(contains(a.err, std::string("\n  ") + command + "  ")) << command;
+}
+
+TEST(CommandLine, NamesWhatItsOptionsTake) {
+  EXPECT_TRUE(contains(call({"run", "--help"}).out, "--set KEY=VALUE ..."));
+  EXPECT_TRUE(contains(call({"resume", "--help"}).out, "--until TIME"));
+  for (const char* command : {"run", "check", "resume", "report", "list", "describe"})
+    EXPECT_FALSE(contains(call({command, "--help"}).out, "TEXT")) << command;
+}
+
 TEST(RunCommand, TakesAsManyThreadsAsPay) {
   const fs::path directory = scratch();
   const std::string file = write_text(directory / "bar.toml", small_bar(no_figures)).string();
