@@ -82,7 +82,9 @@ TEST(RunCommand, ACaseWithMistakesIsBadInput) {
   const Answer a = call({"run", write_text(directory / "bar.toml", small_bar("[numerics]\ncourrant = 0.3\n")).string()});
   EXPECT_EQ(a.code, bad_input);
   EXPECT_TRUE(contains(a.err, "courant")) << a.err;
-  EXPECT_EQ(call({"run", (directory / "none.toml").string()}).code, bad_input);
+  const Answer missing = call({"run", (directory / "bat.toml").string()});
+  EXPECT_EQ(missing.code, bad_input);
+  EXPECT_TRUE(contains(missing.err, "bat.toml: there is no such file; did you mean \"bar.toml\"?")) << missing.err;
   EXPECT_EQ(call({"fly"}).code, bad_input);
   EXPECT_EQ(call({"--help"}).code, done);
 }
