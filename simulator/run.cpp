@@ -332,7 +332,7 @@ class Run {
     summary.particle_steps_per_second = static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds;
     summary.books = books_of(s_);
     summary.measures = measures_.read(s_), summary.not_gated = not_gated(case_.gates, s_);
-    summary.other_experiment = other_experiment(case_);
+    summary.other_experiment = other_experiment(case_), summary.failed = failed_particles(s_);
     if (history_) summary.peaks = peaks_of(read_gauges(case_, options_.directory));
   }
 
@@ -417,7 +417,8 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   {},
                   not_gated(c.gates, s),
                   gates_passed(directory),
-                  other_experiment(c)};
+                  other_experiment(c),
+                  failed_particles(s)};
   for (auto& found :
        {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory, of)})
     troubles.insert(troubles.end(), found.begin(), found.end());
