@@ -281,6 +281,10 @@ TEST(ResumeCommand, MeetsAGateAgainThatARowOfItsOwnHadMet) {
   write_text(run_directory / "case.toml", text);
   const Answer first = call({"resume", run_directory.string(), "--until", "0.3 us"});
   EXPECT_TRUE(contains(first.err, "gate fastest: ") && contains(first.err, "time 3e-07 s")) << first.err;
+  const Case gated = read_case(run_directory / "case.toml");
+  Simulation before = set_up(gated);
+  ASSERT_EQ(resume(gated, before, {run_directory, {}, 0}).ending, Ending::interrupted) << "nor if it does not come as far";
+  fs::remove(run_directory / "summary.json");  // as if it had been killed
   const Answer again = call({"resume", run_directory.string()});
   EXPECT_EQ(again.code, failed_while_running) << again.out;
   const std::size_t at = again.err.find(", time ");
