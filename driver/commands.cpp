@@ -60,10 +60,11 @@ int run_command_line(int argc, char** argv) {
 
   RunOptions options;
   CLI::App* run_command = app.add_subcommand("run", "Follow a path file, or every member of its sweep");
-  run_command->add_option("PATH", options.file, "path file (TOML)")->required();
-  run_command->add_option("--set", options.overrides, set_help)->allow_extra_args(false);
-  run_command->add_option("-o,--output", options.output, "history: NAME.csv or NAME.h5; for a sweep also a directory");
-  run_command->add_option("--plot", options.figure, "figure, .png or .svg");
+  run_command->add_option("PATH", options.file, "path file (TOML)")->required()->type_name("");
+  add_set(run_command, options.overrides, set_help);
+  run_command->add_option("-o,--output", options.output, "history: NAME.csv or NAME.h5; for a sweep also a directory")
+      ->type_name("FILE");
+  run_command->add_option("--plot", options.figure, "figure, .png or .svg")->type_name("FILE");
   run_command->add_flag("--reference", options.reference, "compare with the rate form, integrated with error control");
   run_command->callback([&] {
     options.file = find_case(options.file);
@@ -72,11 +73,13 @@ int run_command_line(int argc, char** argv) {
 
   CompareOptions comparison;
   CLI::App* compare_command = app.add_subcommand("compare", "Measured stress-strain curves against material models");
-  compare_command->add_option("CASE", comparison.file, "comparison file (TOML)")->required();
-  compare_command->add_option("--set", comparison.overrides, set_help)->allow_extra_args(false);
-  compare_command->add_option("-o,--output", comparison.output,
-                              "NAME.csv of the errors of each test; NAME_points.csv goes beside it");
+  compare_command->add_option("CASE", comparison.file, "comparison file (TOML)")->required()->type_name("");
+  add_set(compare_command, comparison.overrides, set_help);
+  compare_command
+      ->add_option("-o,--output", comparison.output, "NAME.csv of the errors of each test; NAME_points.csv goes beside it")
+      ->type_name("FILE");
   compare_command->add_option("--plot", comparison.figures, "figure, .png or .svg; may be given twice")
+      ->type_name("FILE")
       ->allow_extra_args(false);
   compare_command->callback([&] {
     comparison.file = find_case(comparison.file);
@@ -87,10 +90,12 @@ int run_command_line(int argc, char** argv) {
 
   CalibrateOptions calibration;
   CLI::App* calibrate_command = app.add_subcommand("calibrate", "Parameters of a material from measured flow curves");
-  calibrate_command->add_option("FIT", calibration.file, "calibration file (TOML)")->required();
-  calibrate_command->add_option("--set", calibration.overrides, set_help)->allow_extra_args(false);
-  calibrate_command->add_option("-o,--output", calibration.output, "material file with the parameters found");
+  calibrate_command->add_option("FIT", calibration.file, "calibration file (TOML)")->required()->type_name("");
+  add_set(calibrate_command, calibration.overrides, set_help);
+  calibrate_command->add_option("-o,--output", calibration.output, "material file with the parameters found")
+      ->type_name("FILE");
   calibrate_command->add_option("--plot", calibration.figures, "figure, .png or .svg; may be given twice")
+      ->type_name("FILE")
       ->allow_extra_args(false);
   calibrate_command->callback([&] {
     calibration.file = find_case(calibration.file);
@@ -99,13 +104,14 @@ int run_command_line(int argc, char** argv) {
 
   std::vector<std::filesystem::path> materials;
   CLI::App* check_command = app.add_subcommand("check", "Material files against the analytical limits of their laws");
-  check_command->add_option("FILE", materials, "material files (default: all that come with the program)");
+  check_command->add_option("FILE", materials, "material files (default: all that come with the program)")->type_name("");
   check_command->callback([&] { code = run_check(materials); });
 
   std::string law;
   CLI::App* describe_command =
       app.add_subcommand("describe", "A law: equation, source, parameters. A key: meaning, unit, default, values");
-  describe_command->add_option("NAME", law, "law, folder/law or folder; key or its path; without it all are listed");
+  describe_command->add_option("NAME", law, "law, folder/law or folder; key or its path; without it all are listed")
+      ->type_name("");
   describe_command->callback([&] { code = law.empty() ? list() : describe(law); });
 
   return exit_code_of([&] { return parse(app, argc, argv) ? code : bad_input; });

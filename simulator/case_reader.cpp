@@ -41,12 +41,16 @@ class CaseReader : public KeyReader<CaseReader> {
       top.ignore_rest();
       return std::move(case_);
     }
+    if (top.has("solid") && top.is_table("gas")) {  // what each of the two refuses would be said of the other
+      top.problem("gas", "a case holds either solids or gas, not yet both; rigid bodies in a gas are [[gas.body]]");
+      top.ignore_rest();
+      return std::move(case_);
+    }
     read_keys(top, case_);
     if (case_.title.empty()) case_.title = top.file().stem().string();
     if (case_.gas && case_.output.figure_field == OutputConfig{}.figure_field) case_.output.figure_field = "density";
     if (case_.bodies.empty() && !case_.gas && (!top.has("solid") || top.problem_count() == 0))
       top.problem("there is no [[solid]] and no [gas]; a case has one of them");
-    if (!case_.bodies.empty() && case_.gas) top.problem("gas", "a case holds either solids or gas, not yet both");
     if (!case_.bodies.empty() && geometry_known(top) && dimensions() == 1)
       top.problem("geometry", "in one dimension there is gas alone; solids need plane, axisymmetric or three_dimensional");
     if (top.sound({"geometry", "cell_size", "boundary"})) {

@@ -252,14 +252,14 @@ int run_command_line(int argc, char** argv) {
         ->check(CLI::Range(1, 4096));
   };
   const auto add_case = [&](CLI::App* command) {
-    command->add_option("CASE", o.file, "case file (TOML), or a name of `brisance list cases`")->required();
-    command->add_option("--set", o.overrides, set_help)->allow_extra_args(false);
+    command->add_option("CASE", o.file, "case file (TOML), or a name of `brisance list cases`")->required()->type_name("");
+    add_set(command, o.overrides, set_help);
     add_threads(command);
   };
 
   CLI::App* run_command = app.add_subcommand("run", "Simulate a case");
   add_case(run_command);
-  run_command->add_option("-o,--output", o.directory, "directory of the run (default: CASE_run)");
+  run_command->add_option("-o,--output", o.directory, "directory of the run (default: CASE_run)")->type_name("DIR");
   run_command->add_flag("--overwrite", o.overwrite, "replace the run that is in that directory");
   run_command->callback([&] { code = run_case(o); });
 
@@ -268,26 +268,29 @@ int run_command_line(int argc, char** argv) {
   check_command->callback([&] { code = check_case(o); });
 
   CLI::App* resume_command = app.add_subcommand("resume", "Go on with a run from its last checkpoint");
-  resume_command->add_option("DIR", o.directory, "directory of the run")->required();
-  resume_command->add_option(
-      "--until", o.until,
-      "simulated time at which to end, in s or such as \"100 us\", instead of the case's; a later one becomes "
-      "the end of the case in DIR");
+  resume_command->add_option("DIR", o.directory, "directory of the run")->required()->type_name("");
+  resume_command
+      ->add_option("--until", o.until,
+                   "simulated time at which to end, in s or such as \"100 us\", instead of the case's; a later one becomes "
+                   "the end of the case in DIR")
+      ->type_name("TIME");
   add_threads(resume_command);
   resume_command->callback([&] { code = resume_run(o); });
 
   CLI::App* report_command = app.add_subcommand("report", "Measures and energies of a run; draws its figures again");
-  report_command->add_option("DIR", o.directory, "directory of the run")->required();
+  report_command->add_option("DIR", o.directory, "directory of the run")->required()->type_name("");
   report_command->callback([&] { code = report_run(o); });
 
   CLI::App* list_command = app.add_subcommand("list", "Materials, shapes, boundaries, fields, laws of reactions; cases");
-  list_command->add_option("WHAT", o.key, "`cases` or `materials`: those that come with the program");
+  list_command->add_option("WHAT", o.key, "`cases` or `materials`: those that come with the program")->type_name("");
   list_command->callback([&] { code = list(o.key); });
 
   CLI::App* describe_command =
       app.add_subcommand("describe", "What a key of a case file, one of its values, a shape, a law or a material is");
-  describe_command->add_option(
-      "KEY", o.key, "path or last name of a key, a table, a value, a shape, a law, or a material; without it all keys");
+  describe_command
+      ->add_option("KEY", o.key,
+                   "path or last name of a key, a table, a value, a shape, a law, or a material; without it all keys")
+      ->type_name("");
   describe_command->callback([&] { code = describe_keys(o.key); });
 
   return exit_code_of([&] { return parse(app, argc, argv) ? code : bad_input; });

@@ -55,6 +55,17 @@ std::vector<std::string> gates_passed(const Path& directory) {
   return gates;
 }
 
+/// Begins the line of the log which tells when, in s, a gate that had ended a run is judged again: what resumes it may come to
+/// its end before.
+constexpr std::string_view again = "that gate is judged again at ";
+/// The last such time; -1: never.
+double gate_time_in(const Path& directory) {
+  double time = -1.0;
+  for (const std::string& line : read_log(directory / "log.txt"))
+    if (line.starts_with(again)) time = std::strtod(line.c_str() + again.size(), nullptr);
+  return time;
+}
+
 std::string clock_text(double seconds) {
   const auto s = static_cast<long>(std::min(seconds, 3.6e8));
   return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02}", s / 60, s % 60);
@@ -110,13 +121,14 @@ class Run {
     const Restored restored = restore_newest(options_.directory, s_, [&](const std::string& trouble) { log_.line(trouble); });
     const std::optional<ToldEnding> told = read_ending(options_.directory / "summary.json");
     const bool had_failed = told && told->ending == word_of(Ending::failed);
-    if (had_failed && told->message.starts_with("gate ")) gate_time_ = told->time;
     const bool past_end = s_.time > end_ && !at(end_);
     if (past_end || (at(end_) && told && !had_failed)) return nothing_left();
     keep_later_end();
     log_.set_wall_time_before(restored.progress.wall_time);
-    std::filesystem::remove(options_.directory / "summary.json");  // it told of the part before
     log_.line(fmt::format("goes on from {}, step {}, time {:.6g} s", restored.file.string(), s_.step, s_.time));
+    if (had_failed && told->message.starts_with("gate ")) log_.line(fmt::format("{}{} s", again, told->time));
+    gate_time_ = gate_time_in(options_.directory);
+    std::filesystem::remove(options_.directory / "summary.json");  // it told of the part before
     snapshot_times_ = restored.progress.snapshot_times;
     row_time_ = restored.progress.row_time;
     last_checkpoint_ = restored.file;
@@ -332,7 +344,7 @@ class Run {
     summary.particle_steps_per_second = static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds;
     summary.books = books_of(s_);
     summary.measures = measures_.read(s_), summary.not_gated = not_gated(case_.gates, s_);
-    summary.other_experiment = other_experiment(case_);
+    summary.other_experiment = other_experiment(case_), summary.failed = failed_particles(s_);
     if (history_) summary.peaks = peaks_of(read_gauges(case_, options_.directory));
   }
 
@@ -417,7 +429,8 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   {},
                   not_gated(c.gates, s),
                   gates_passed(directory),
-                  other_experiment(c)};
+                  other_experiment(c),
+                  failed_particles(s)};
   for (auto& found :
        {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory, of)})
     troubles.insert(troubles.end(), found.begin(), found.end());

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <numeric>
+#include <utility>
 
 namespace brisance {
 namespace {
@@ -30,14 +31,19 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
-/// Damerau-Levenshtein distance (optimal string alignment): F. J. Damerau, Commun. ACM 7 (1964) 171-176.
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// Damerau-Levenshtein distance (optimal string alignment): F. J. Damerau, Commun. ACM 7 (1964) 171-176. Another digit counts
+/// twice: numbers tell names apart.
 int edit_distance(std::string_view a, std::string_view b) {
   std::vector<int> before_last(b.size() + 1), last(b.size() + 1), current(b.size() + 1);
   std::iota(last.begin(), last.end(), 0);
   for (std::size_t i = 1; i <= a.size(); ++i) {
     current[0] = static_cast<int>(i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int change = a[i - 1] == b[j - 1] ? 0 : 1;
+      const int change = a[i - 1] == b[j - 1] ? 0 : is_digit(a[i - 1]) || is_digit(b[j - 1]) ? 2 : 1;
       current[j] = std::min({last[j] + 1, current[j - 1] + 1, last[j - 1] + change});
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         current[j] = std::min(current[j], before_last[j - 2] + 1);
@@ -91,16 +97,16 @@ InputError::InputError(std::vector<Problem> problems)
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> candidates) {
   if (word.empty() || word.size() > longest_word) return std::nullopt;
   std::optional<std::string_view> best;
-  int smallest = 0;
+  std::pair<int, bool> smallest;
   for (const std::string_view candidate : candidates) {
     // Twice the distance between lower-case forms, plus one if only the case differs somewhere.
     const int folded = edit_distance(lower_case(word), lower_case(candidate));
     const int distance = 2 * folded + (edit_distance(word, candidate) > folded ? 1 : 0);
-    // A word may be wrong in a third of its letters. In names of one or two letters, where that is none, one may be missing or
-    // too many, but not another.
-    const int third = static_cast<int>(std::max(word.size(), candidate.size()) / 3);
-    const int allowed = 2 * std::max(third, word.size() != candidate.size() ? 1 : 0) + 1;
-    if (distance <= allowed && (!best || distance < smallest)) best = candidate, smallest = distance;
+    // A word may be wrong in a third of its letters and in one at least, but a name of one letter is no other one.
+    const int longest = static_cast<int>(std::max(word.size(), candidate.size()));
+    const int allowed = 2 * (longest > 1 ? std::max(longest / 3, 1) : 0) + 1;
+    const std::pair rank(distance, word.size() != candidate.size());  // of two as near, the one that is as long
+    if (distance <= allowed && (!best || rank < smallest)) best = candidate, smallest = rank;
   }
   return best;
 }

@@ -18,6 +18,12 @@ std::vector<Path> files_in(const Path& folder) {
   return files;
 }
 
+std::string did_you_mean_one_of(const std::vector<Path>& files, const Path& name) {
+  std::vector<std::string> names;
+  for (const Path& file : files) names.push_back(file.filename().string());
+  return did_you_mean(name.string(), std::vector<std::string_view>(names.begin(), names.end()));
+}
+
 std::string joined(std::span<const Path> folders) {
   std::string text;
   for (const Path& folder : folders) text += (text.empty() ? "" : ", ") + folder.string();
@@ -66,7 +72,8 @@ Path find_case(const Path& name) {
   const auto fail = [&](const std::string& why) -> Path {
     throw InputError({{name.string(), 0, 0, "", "there is no such file" + why}});
   };
-  if (name.has_parent_path()) return fail("");
+  const std::string guess = did_you_mean_one_of(files_in(name.has_parent_path() ? name.parent_path() : "."), name.filename());
+  if (name.has_parent_path()) return fail(guess);
   std::vector<Path> files;
   try {
     files = bundled_cases();
@@ -78,8 +85,9 @@ Path find_case(const Path& name) {
     if (name == file.filename() || name == file.stem()) return file;
     names.push_back(file.stem().string());
   }
-  return fail(", and no case of this name in " + files.front().parent_path().string() +
-              did_you_mean(name.stem().string(), std::vector<std::string_view>(names.begin(), names.end())));
+  return fail(
+      ", and no case of this name in " + files.front().parent_path().string() +
+      (guess.empty() ? did_you_mean(name.stem().string(), std::vector<std::string_view>(names.begin(), names.end())) : guess));
 }
 
 std::optional<Path> find_material(const Path& name, const Path& beside) {
@@ -103,9 +111,7 @@ std::string no_material_named(const Path& name, const Path& beside) {
       what += " beside this file; " + std::string(error.what());
     }
   }
-  std::vector<std::string> names;
-  for (const Path& file : present) names.push_back(file.filename().string());
-  return what + did_you_mean(name.string(), std::vector<std::string_view>(names.begin(), names.end()));
+  return what + did_you_mean_one_of(present, name);
 }
 
 }  // namespace brisance

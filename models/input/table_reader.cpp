@@ -82,6 +82,8 @@ void TableReader::problem_of_file(std::string_view key, std::span<const Problem>
 
 void TableReader::ignore_rest() {
   if (table_) table_->opened = false;
+  const std::string within = path_.empty() ? "" : path_ + '.';
+  std::erase_if(owner_->pending_, [&](const InputFile::Override& pending) { return pending.path.starts_with(within); });
 }
 
 std::size_t TableReader::problem_count() const {

@@ -117,7 +117,8 @@ class TableReader {
   void add_problems(std::string_view key, std::span<const Problem> problems);
   /// The same, and says at the key that its file cannot be used; why in the same line if that has no place in the file.
   void problem_of_file(std::string_view key, std::span<const Problem> problems);
-  /// Do not report keys of this table that nobody asked for: what they mean is unknown since something else went wrong.
+  /// Do not report keys of this table that nobody asked for, nor overrides within: what they mean is unknown since something
+  /// else went wrong.
   void ignore_rest();
   /// How many problems have been reported in this file so far.
   std::size_t problem_count() const;

@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,20 +16,53 @@
 
 namespace brisance {
 
+/// The option that replaces values of an input file.
+inline void add_set(CLI::App* command, std::vector<std::string>& overrides, const char* help) {
+  command->add_option("--set", overrides, help)->type_name("KEY=VALUE")->allow_extra_args(false);
+}
+
+/// What is wrong with a word that the command does not take.
+inline std::string unexpected(const CLI::App& command, const std::string& word, std::span<char* const> words) {
+  if (word.starts_with('-')) {
+    std::vector<std::string> options;
+    for (const CLI::Option* option : command.get_options())
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    const std::vector<std::string_view> names(options.begin(), options.end());
+    const std::string name = word.substr(0, word.find('='));
+    return fmt::format("{}: {} is no option; there are {}{}", command.get_name(), in_quotes(name), listed(names),
+                       did_you_mean(name, names));
+  }
+  const std::string what = fmt::format("{}: {} was not expected", command.get_name(), in_quotes(word));
+  const auto last = std::find(words.begin(), words.end(), word);
+  const auto is_option = [](const char* text) { return text[0] == '-'; };
+  const auto option = std::find_if(std::make_reverse_iterator(last), words.rend(), is_option);
+  if (option == words.rend() || option.base() == last) return what;  // it follows no value of an option
+  return fmt::format("{}; a value with spaces stands in quotes: {} \"{} {}\"", what, *option,
+                     fmt::join(option.base(), last, " "), word);
+}
+
 /// Reads a command line and runs its command. False if it is a wrong one, about which the user has been told; throws
-/// std::invalid_argument if its first word is no command.
+/// std::invalid_argument if it holds a word that is no command, no option or one too many.
 inline bool parse(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
     return true;
   } catch (const CLI::ParseError& error) {
+    if (argc == 1) {
+      fmt::print(stderr, "{}", app.help());
+      return false;
+    }
     std::vector<std::string> commands;
     for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
     const std::vector<std::string_view> names(commands.begin(), commands.end());
-    const bool is_word = argc > 1 && argv[1][0] != '-';
-    if (is_word && std::find(names.begin(), names.end(), argv[1]) == names.end())
+    if (argv[1][0] != '-' && std::find(names.begin(), names.end(), argv[1]) == names.end())
       throw std::invalid_argument(
           fmt::format("{} is no command; there are {}{}", in_quotes(argv[1]), listed(names), did_you_mean(argv[1], names)));
+    if (const auto extra = app.remaining(true); !extra.empty() && error.get_exit_code() != 0) {
+      const auto given = app.get_subcommands();
+      throw std::invalid_argument(
+          unexpected(given.empty() ? app : *given.front(), extra.front(), std::span(argv + 1, argv + argc)));
+    }
     return app.exit(error) == 0;  // 0: help was asked for
   }
 }

@@ -507,9 +507,10 @@ void check_fields(TableReader& in, const std::vector<std::string>& wanted, const
 void check_in_box(TableReader& in, const Vector& from, const Vector& to, const Case& c) {
   if (!in.sound_in_file({"geometry", "gas.lower", "gas.upper"}) || !in.sound({"from", "to"})) return;
   for (std::size_t k = 0; k < dimensions_of(c); ++k)
-    for (const Vector& place : {from, to})
-      if (c.gas->lower[k] < c.gas->upper[k] && (place[k] < c.gas->lower[k] || place[k] > c.gas->upper[k]))
-        return in.problem("from", fmt::format("along {} it leaves the box of the gas", axis_names[k]));
+    for (const auto& [key, place] : {std::pair{"from", from[k]}, {"to", to[k]}})
+      if (c.gas->lower[k] < c.gas->upper[k] && (place < c.gas->lower[k] || place > c.gas->upper[k]))
+        return in.problem(key, fmt::format("along {} {} is outside the box of the gas, which goes from {} to {}", axis_names[k],
+                                           in_metres(place), in_metres(c.gas->lower[k]), in_metres(c.gas->upper[k])));
 }
 
 }  // namespace brisance::simulator::gas

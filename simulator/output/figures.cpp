@@ -308,7 +308,9 @@ void draw_gauges(const Case& c, const Path& directory) {
     end = std::max(end, largest(s.time));
   }
   const Scale times = scale_for("s", end);
+  constexpr std::size_t most_above_each_other = 4;
   Figure figure{c.title + ": gauges", {}, 1, 900, 280};
+  if (fields.size() > most_above_each_other) figure.columns = 2, figure.panel_width = 700;
   for (const std::string& field : fields) {
     std::vector<const GaugeSeries*> shown;
     double most = 0.0;

@@ -12,6 +12,7 @@
 
 #include "models/programs/files.hpp"
 #include "simulator/output/extensive.hpp"
+#include "simulator/output/fields.hpp"
 #include "simulator/output/hdf5_file.hpp"
 #include "simulator/output/json.hpp"
 
@@ -111,6 +112,17 @@ Json json_of(const gas::RangeReport& report) {
 
 }  // namespace
 
+std::vector<FailedParticles> failed_particles(const Simulation& s) {
+  std::vector<FailedParticles> bodies;
+  for (const Body& body : s.bodies) {
+    std::int64_t failed = 0;
+    for (int p = 0; p < body.particles.size; ++p)
+      failed += ParticleView(body.particles, p).rest(Layout<2>::Rest::failure_cause) != 0.0;
+    if (failed > 0) bodies.push_back({body.name, failed, body.particles.size});
+  }
+  return bodies;
+}
+
 void write_summary(const Summary& s, const std::filesystem::path& path) {
   Json gauges = Json::object(), measures = Json::object(), comparison = Json::object(), energy = Json::object(),
        units = Json::object(), versions = Json::object();
@@ -145,6 +157,11 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
       .set("gauges", gauges)
       .set("energy", energy)
       .set("units", units);
+  if (!s.failed.empty()) {
+    Json failed = Json::object();
+    for (const FailedParticles& f : s.failed) failed.set(f.body, f.failed);
+    all.set("failed_particles", failed);
+  }
   if (s.books.gas) {
     all.set("first_order_cell_steps", s.books.gas->plain).set("flattened_slopes", s.books.gas->flattened);
     Json outside = Json::object();
@@ -177,6 +194,8 @@ std::string in_words(const Summary& s) {
                                  s.subtitle.empty() ? "" : "  " + s.subtitle + '\n', s.time, s.steps, s.particles,
                                  s.books.gas ? "cells" : "particles", s.wall_time);
   for (const std::string& gate : s.resumed_after) text += fmt::format("  caution: resumed after {}\n", gate);
+  for (const FailedParticles& f : s.failed)
+    text += fmt::format("  failed: {} of {} particles of {}\n", f.failed, f.all, f.body);
   if (!s.measures.empty())
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", "measure", "computed", "measured", "deviation");
   for (const MeasuredValue& m : s.measures) {

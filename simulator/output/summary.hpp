@@ -12,6 +12,14 @@
 
 namespace brisance::simulator {
 
+/// How many particles of a body a failure criterion has met.
+struct FailedParticles {
+  std::string body;
+  std::int64_t failed, all;
+};
+/// Of the bodies that have any.
+std::vector<FailedParticles> failed_particles(const Simulation& s);
+
 struct Summary {
   std::string title, subtitle, ending, message;
   double time = 0.0;                      // s
@@ -25,6 +33,7 @@ struct Summary {
   std::string not_gated{};                      // what no gate watches
   std::vector<std::string> resumed_after{};     // gates that had ended it before
   std::vector<std::string> other_experiment{};  // what --set has changed of the one that its measures are compared with
+  std::vector<FailedParticles> failed{};
 };
 
 /// How a run came to its end, as the summary that it wrote tells it; nothing if there is none.

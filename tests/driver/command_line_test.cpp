@@ -64,6 +64,15 @@ TEST(Run, FindsItsCasesAndCommandsByName) {
   EXPECT_TRUE(contains(call({"rum", "point_simple_shear"}).err, "did you mean \"run\"?"));
 }
 
+TEST(CommandLine, SaysWhatItTakes) {
+  EXPECT_TRUE(contains(call({"run", "point_simple_shear", "--plto", "a.png"}).err, "did you mean \"--plot\"?"));
+  for (const char* command : {"run", "compare", "list", "calibrate", "check", "describe"}) {
+    EXPECT_FALSE(contains(call({command, "--help"}).out, "TEXT")) << command;
+    EXPECT_TRUE(contains(call({}).err, std::string("\n  ") + command + "  ")) << command;
+  }
+  EXPECT_EQ(call({}).code, bad_input);
+}
+
 TEST(List, NamesEveryKeyOfEveryFile) {
   const Answer a = call({"list"});
   for (const char* key : {"segment.strain_rate", "segment.until", "segment.repeat", "initial.porosity", "output.every",

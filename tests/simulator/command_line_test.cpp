@@ -82,9 +82,36 @@ TEST(RunCommand, ACaseWithMistakesIsBadInput) {
   const Answer a = call({"run", write_text(directory / "bar.toml", small_bar("[numerics]\ncourrant = 0.3\n")).string()});
   EXPECT_EQ(a.code, bad_input);
   EXPECT_TRUE(contains(a.err, "courant")) << a.err;
-  EXPECT_EQ(call({"run", (directory / "none.toml").string()}).code, bad_input);
+  const Answer missing = call({"run", (directory / "bat.toml").string()});
+  EXPECT_EQ(missing.code, bad_input);
+  EXPECT_TRUE(contains(missing.err, "bat.toml: there is no such file; did you mean \"bar.toml\"?")) << missing.err;
   EXPECT_EQ(call({"fly"}).code, bad_input);
   EXPECT_EQ(call({"--help"}).code, done);
+}
+
+TEST(CommandLine, SaysWhatIsMeantByAWordThatItDoesNotTake) {
+  EXPECT_TRUE(contains(call({"run", "sod", "--set", "end_time=12", "us", "--overwrite"}).err,
+                       "run: \"us\" was not expected; a value with spaces stands in quotes: --set \"end_time=12 us\"\n"));
+  EXPECT_EQ(call({"check", "sod", "foo"}).err, "check: \"foo\" was not expected\n") << "it follows no option";
+  const Answer a = call({"resume", "bar_run", "--untli=3", "us"});
+  EXPECT_EQ(a.code, bad_input);
+  EXPECT_EQ(a.err, "resume: \"--untli\" is no option; there are --help, --until, --threads; did you mean \"--until\"?\n");
+  EXPECT_TRUE(contains(call({"--versoin"}).err, "did you mean \"--version\"?"));
+}
+
+TEST(CommandLine, ListsTheCommandsWhereNoneIsGiven) {
+  const Answer a = call({});
+  EXPECT_EQ(a.code, bad_input);
+  EXPECT_EQ(a.out, "");
+  for (const char* command : {"run", "check", "resume", "report", "list", "describe"})
+    EXPECT_TRUE(contains(a.err, std::string("\n  ") + command + "  ")) << command;
+}
+
+TEST(CommandLine, NamesWhatItsOptionsTake) {
+  EXPECT_TRUE(contains(call({"run", "--help"}).out, "--set KEY=VALUE ..."));
+  EXPECT_TRUE(contains(call({"resume", "--help"}).out, "--until TIME"));
+  for (const char* command : {"run", "check", "resume", "report", "list", "describe"})
+    EXPECT_FALSE(contains(call({command, "--help"}).out, "TEXT")) << command;
 }
 
 TEST(RunCommand, TakesAsManyThreadsAsPay) {
@@ -254,6 +281,10 @@ TEST(ResumeCommand, MeetsAGateAgainThatARowOfItsOwnHadMet) {
   write_text(run_directory / "case.toml", text);
   const Answer first = call({"resume", run_directory.string(), "--until", "0.3 us"});
   EXPECT_TRUE(contains(first.err, "gate fastest: ") && contains(first.err, "time 3e-07 s")) << first.err;
+  const Case gated = read_case(run_directory / "case.toml");
+  Simulation before = set_up(gated);
+  ASSERT_EQ(resume(gated, before, {run_directory, {}, 0}).ending, Ending::interrupted) << "nor if it does not come as far";
+  fs::remove(run_directory / "summary.json");  // as if it had been killed
   const Answer again = call({"resume", run_directory.string()});
   EXPECT_EQ(again.code, failed_while_running) << again.out;
   const std::size_t at = again.err.find(", time ");

@@ -666,5 +666,19 @@ TEST(Summary, IsWellFormedAndTellsMeasuresByName) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '{'), std::count(text.begin(), text.end(), '}'));
 }
 
+TEST(Summary, CountsTheParticlesThatHaveFailed) {
+  const std::string no_figures = "[output]\nfigures = false\n";
+  const auto told = [&](const std::function<void(Simulation&)>& spoil) {
+    const SmallRun r(no_figures, 1, spoil);
+    return in_words(r.result.summary) + text_of(r.directory / "summary.json");
+  };
+  EXPECT_FALSE(contains(told({}), "failed"));
+  const std::string broken = told([](Simulation& s) {
+    for (const int p : {3, 100, 239}) s.bodies[0].particles.rest.at(Layout<2>::Rest::failure_cause, p) = 1.0;
+  });
+  EXPECT_TRUE(contains(broken, "\n  failed: 3 of 240 particles of bar\n")) << broken;
+  EXPECT_TRUE(contains(broken, "\"failed_particles\": {\n    \"bar\": 3\n  }")) << broken;
+}
+
 }  // namespace
 }  // namespace brisance::simulator

@@ -182,6 +182,14 @@ TEST(CaseReader, DoesNotBlameAShapeForAWrongCellSize) {
   EXPECT_EQ(problems.find("fills nothing"), std::string::npos) << problems;
 }
 
+/// What each of the two refuses of the other's keys would only hide it.
+TEST(CaseReader, SaysOfSolidsWithGasNothingButThatTheyAreNotTogether) {
+  const std::string text = bar + gases.substr(gases.find("[gas]"));
+  for (const std::vector<std::string>& overrides : {std::vector<std::string>{}, {"solid.0.material.flow_stress.beta=1"}})
+    EXPECT_EQ(problems_of(text, overrides),
+              "case.toml:17:1: gas: a case holds either solids or gas, not yet both; rigid bodies in a gas are [[gas.body]]");
+}
+
 TEST(CaseReader, ReportsAllProblemsAtOnce) {
   const std::string text = R"(geometry = "axisymmetric"
 cell_size = -1

@@ -125,6 +125,24 @@ TEST(PicturesOfARunThatHasNotBegun, ShowItsOneRow) {
   EXPECT_TRUE(contains(told, "set cbrange [0:1]") && contains(told, "set title \"0 everywhere\"")) << told.substr(0, 3000);
 }
 
+/// A picture of many fields is no higher than a screen by much.
+TEST(ThePictureOfGauges, HasTwoColumnsWhereItsFieldsAreMany) {
+  const auto told_of = [](const std::vector<std::string>& fields) {
+    const fs::path directory = scratch();
+    Case c = disk();
+    c.output.figures = false;
+    GaugeConfig gauge;
+    gauge.name = "middle", gauge.kind = GaugeKind::point, gauge.from = {0.0, 7.0 * h, 0.0}, gauge.fields = fields;
+    c.gauges = {gauge};
+    Simulation s = set_up(c);
+    EXPECT_EQ(run(c, s, {directory, {}, 0}).ending, Ending::interrupted);
+    return told_to_gnuplot(c, s, directory);
+  };
+  EXPECT_TRUE(contains(told_of({"pressure", "density", "temperature", "damage"}), "size 900,1154\n"));
+  EXPECT_TRUE(contains(told_of({"pressure", "density", "temperature", "velocity"}), "size 1400,874\n"))
+      << "five: two of them components";
+}
+
 /// Of a body in space, the layer of particles that the plane z = 0 cuts.
 TEST(TheCellsOfParticles, InSpaceAreThoseOfTheMiddle) {
   Case c;

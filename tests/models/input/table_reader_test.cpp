@@ -290,6 +290,7 @@ TEST(Nearest, WordIsFoundThroughOneSlip) {
   EXPECT_EQ(nearest("S0", short_words), "s0");
   EXPECT_EQ(nearest("s", short_words), "s0");
   EXPECT_EQ(nearest("s00", short_words), "s0");
+  EXPECT_EQ(nearest("sp", std::array<std::string_view, 2>{"s", "up"}), "up") << "of two as near, the one that is as long";
   for (const char* other : {"m", "y2", "x3", "xyz"}) EXPECT_EQ(nearest(other, short_words), std::nullopt) << other;
   for (const char* other : {"", "x", "colour", "height_of_the_rod"}) EXPECT_EQ(nearest(other, words), std::nullopt) << other;
   EXPECT_EQ(nearest(std::string(1'000'000, 'a'), words), std::nullopt);

@@ -136,6 +136,7 @@ TEST(Units, RefusedSayWhatTheyMeasureAndWhatIsAllowed) {
   EXPECT_EQ(message("792 MPA", Unit::Pa),
             "\"792 MPA\" is not a pressure: unknown unit \"MPA\"; give a number in Pa or a text such as \"792 MPa\"; did you "
             "mean \"MPa\"?");
+  EXPECT_TRUE(message("0.4 mn", Unit::m).ends_with("did you mean \"mm\"?")) << message("0.4 mn", Unit::m);
 }
 
 TEST(Conversion, AppliesToManyNumbersOfOneColumn) {
