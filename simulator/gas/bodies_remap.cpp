@@ -82,13 +82,11 @@ std::int64_t find_passing(Gas& gas, double dt, std::size_t axis) {
         given |= most_of_it;
         const Lanes own = volume[r] + select(most_of_it, left, Lanes(0.0));
         const Lanes own_part = min(Lanes(own / max(Lanes(part * room), Lanes(1e-300))), Lanes(0.9999));
-        // Slopes only where the cell before, this one and the next all have the fluid, and it does not end in the next.
-        const Lanes around =
-            min(min(at(s.part[r], giving.low), at(s.part[r], giving.high)),
-                select(giving.up, at(s.part[r], giving.low - giving.step), at(s.part[r], giving.high + giving.step)));
+        // Slopes only where the cell behind, this one and the next all have the fluid, and this one is not at its edge.
+        const Lanes next = giving.ahead(s.part[r]), behind = select(giving.up, at(s.part[r], giving.low - giving.step),
+                                                                    at(s.part[r], giving.high + giving.step));
         const Column& density = s.fluid_density[r];
-        const LanesMask smooth =
-            giving.smooth & (around > 0.0) & !ends_ahead(giving.ahead(s.part[r]), giving.ahead(density), giving.of(density));
+        const LanesMask smooth = giving.smooth & (min(min(behind, part), next) > 0.0) & has_slopes(behind, part, next);
         const Lanes dm = select(here, sign * own * giving.leaving(density, own_part, smooth), Lanes(0.0));
         const Lanes dI = select(here, sign * own * giving.leaving(s.fluid_energy[r], own_part, smooth), Lanes(0.0));
         const std::size_t first = Content::momentum + D + per_fluid * r;

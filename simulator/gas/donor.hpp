@@ -34,12 +34,16 @@ inline Lanes difference_across_donor(const LanesMask& up, const Lanes& before, c
                              half_bound);
 }
 
-/// Whether a fluid ends in the cell ahead of the donor: it shares that cell and is less than a tenth as dense there. No slopes
-/// lead over such an edge. With them the cell at the front of products that expand into air was emptied more and more, what was
-/// left in it grew hotter and the steps shorter without end. `part`: of the volume of the cell ahead.
-inline LanesMask ends_ahead(const Lanes& part, const Lanes& density_ahead, const Lanes& density) {
-  constexpr double least = 0.1, all = 1.0 - 1e-12;
-  return (part < all) & (density_ahead < least * density);
+/// A fluid with more than this part of a cell fills it.
+inline constexpr double nearly_all = 1.0 - 1e-6;
+
+/// Whether a fluid has slopes in a donor, by its parts of the volumes of the cell behind, of the donor and of the cell ahead:
+/// it fills the donor, or there is about as much of it on both sides. At its edge a fluid is alike in all that a cell has of
+/// it. With slopes there, the front of products that expand into air grew thinner from cell to cell, at the pressure of the
+/// cell, to 1e-12 kg/m^3 and millions of kelvins, and the steps shorter without end.
+inline LanesMask has_slopes(const Lanes& behind, const Lanes& here, const Lanes& ahead) {
+  constexpr double least = 0.3;  // change of its part from cell to cell, of the part itself, that makes an edge
+  return (here > nearly_all) | (max(abs(behind - here), abs(ahead - here)) <= least * here);
 }
 
 /// 0 in shocks, 1 away from them, by the internal energies (J/m^3) about a face: a shock is where these change by two to four

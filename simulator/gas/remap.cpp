@@ -46,11 +46,12 @@ struct Giving {
   Lanes leaving(const Pencil& field, const LanesMask& sloped, const Lanes& own_part) const {
     return of(field) + select(sloped, (0.5 * order) * (1.0 - own_part) * difference(field, own_part), Lanes(0.0));
   }
-  /// Where the cells about the donor have a fluid, too, and it does not end in the next one.
-  LanesMask sloped(const std::array<LanesMask, reach>& present, const Pencil& filling, const Pencil& density) const {
+  /// Where the cells about the donor have a fluid, too, and the donor is not at its edge.
+  LanesMask sloped(const std::array<LanesMask, reach>& present, const Pencil& filling) const {
     const LanesMask low_side = present[low - 1] & present[low] & present[high];
     const LanesMask high_side = present[low] & present[high] & present[high + 1];
-    return ((up & low_side) | ((!up) & high_side)) & !ends_ahead(ahead(filling), ahead(density), of(density));
+    const Lanes behind = select(up, filling[low - 1], filling[high + 1]);
+    return ((up & low_side) | ((!up) & high_side)) & has_slopes(behind, of(filling), ahead(filling));
   }
   Lanes difference(const Pencil& field, const Lanes& what_leaves) const {
     return difference_across_donor(up, field[low - 1], field[low], field[high], field[high + 1], what_leaves);
@@ -302,7 +303,7 @@ template <int D>
         const Lanes volume = at.dV[f] + select(most_of_it, left, Lanes(0.0));
         at.dV[f] = sign * volume;
         const Lanes own_part = min(Lanes(volume / max(giving.of(at.volume), Lanes(1e-300))), Lanes(0.9999));
-        const LanesMask sloped = giving.sloped(at.present, at.part, at.density);
+        const LanesMask sloped = giving.sloped(at.present, at.part);
         const Lanes dm = at.dV[f] * giving.leaving(at.density, sloped, own_part);
         const Lanes dI = at.dV[f] * giving.leaving(at.energy, sloped, own_part);
         const Lanes residue = sign * giving.part;
@@ -315,7 +316,6 @@ template <int D>
       dE[f] = dI_all * carried.heat_kept + carried.kinetic;
     }
     const auto filled = [&](std::size_t c, int l) {
-      constexpr double nearly_all = 1.0 - 1e-6;
       for (std::size_t r = 0; r < fluids; ++r)
         if (fluid[r].part[c][l] > nearly_all) return Filled{static_cast<int>(r), fluid[r].mass[c][l]};
       return Filled{};

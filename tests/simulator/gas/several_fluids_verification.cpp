@@ -538,10 +538,10 @@ TEST(RiemannProblem, AtRandomHasThePlateauOfTheExactSolution) {
   }
   // The goal is none. What is reached: all that miss are small against what drives the flow, and of the 60 right by that
   // measure.
-  const int known = long_tests() ? 91 : 4;
+  const int known = long_tests() ? 86 : 4;
   EXPECT_LE(failures, known) << "of " << compared;
   EXPECT_EQ(plain_failures, 0) << "of " << plain;
-  EXPECT_LT(worst_of_drive, long_tests() ? close : 0.0026);
+  EXPECT_LT(worst_of_drive, long_tests() ? close : 0.005);
   EXPECT_GT(plain, compared / 3);
   RecordProperty("missed", std::to_string(failures) + "; of " + std::to_string(plain) + " that are not small " +
                                std::to_string(plain_failures) + "; worst of the highest pressure " +
