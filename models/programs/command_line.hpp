@@ -33,12 +33,13 @@ inline std::string unexpected(const CLI::App& command, const std::string& word, 
                        did_you_mean(name, names));
   }
   const std::string what = fmt::format("{}: {} was not expected", command.get_name(), in_quotes(word));
-  const auto last = std::find(words.begin(), words.end(), word);
-  const auto is_option = [](const char* text) { return text[0] == '-'; };
-  const auto option = std::find_if(std::make_reverse_iterator(last), words.rend(), is_option);
-  if (option == words.rend() || option.base() == last) return what;  // it follows no value of an option
-  return fmt::format("{}; a value with spaces stands in quotes: {} \"{} {}\"", what, *option,
-                     fmt::join(option.base(), last, " "), word);
+  // A value in two words: option, word, word.
+  const auto stray = std::find(words.begin(), words.end(), word);
+  if (stray - words.begin() < 2) return what;
+  const std::string_view given = *(stray - 1), name = *(stray - 2);
+  const CLI::Option* option = name.starts_with('-') ? command.get_option_no_throw(std::string(name)) : nullptr;
+  if (!option || option->get_expected_min() == 0 || given.starts_with('-')) return what;
+  return fmt::format("{}; a value with spaces stands in quotes: {} \"{} {}\"", what, name, given, word);
 }
 
 /// Reads a command line and runs its command. False if it is a wrong one, about which the user has been told; throws

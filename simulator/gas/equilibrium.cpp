@@ -6,7 +6,6 @@
 #include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 
 #include "models/equation_of_state/thermodynamics.hpp"
@@ -31,7 +30,7 @@ LanesMask is_present(const FluidShare<Lanes>& fluid, const Lanes& room) {
   return (fluid.volume > least_fraction * room) & (fluid.mass > 0.0);
 }
 
-/// The jump of pressure, of the bulk modulus of the fluid of lowest pressure, that is relaxed before there is equilibrium.
+/// How far above its own a fluid may meet the highest pressure of the cell, in its bulk moduli, before it is relaxed.
 constexpr double crushing = 0.5;
 
 /// One value for each fluid, on the stack as a rule. Boost's own allocator does not align packs.
@@ -255,37 +254,44 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
 }  // namespace
 
 void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room, int l) {
-  constexpr double bit = 0.1;  // of the volume
-  constexpr int most_bits = 100;
-  struct Extreme {
-    std::size_t fluid = 0;
-    double pressure = 0.0, bulk_modulus = 0.0;
+  constexpr double bit = 0.1;     // of the volume
+  constexpr int most_bits = 100;  // a gas without heat resists nothing; it keeps 3e-5 of its volume
+  struct State {
+    bool here;
+    double pressure, bulk_modulus;
   };
-  const auto is_here = [&](const FluidShare<Lanes>& s) { return s.volume[l] > least_fraction * room[l] && s.mass[l] > 0.0; };
-  double all = 0.0;
-  for (const FluidShare<Lanes>& s : shares) all += is_here(s) ? s.mass[l] : 0.0;
-  for (int n = 0; n < most_bits; ++n) {
-    std::optional<Extreme> low, high;
-    for (std::size_t r = 0; r < fluids.size(); ++r) {
-      if (!is_here(shares[r])) continue;
-      const double density = shares[r].mass[l] / shares[r].volume[l];
-      const auto at = slopes_of(fluids[r].equation_of_state, density, shares[r].internal[l] / shares[r].mass[l]);
-      const Extreme own{r, at.pressure,
-                        std::max(density * at.per_density + at.pressure * at.per_energy / density,
-                                 least_bulk_modulus(fluids[r].equation_of_state, density))};
-      if (!low || own.pressure < low->pressure) low = own;
-      if (!high || own.pressure > high->pressure) high = own;
+  const std::size_t n = fluids.size();
+  OfFluids<State> state(n);
+  for (int i = 0; i < most_bits; ++i) {
+    double mass = 0.0;  // of those that are here: one may be pressed to next to nothing on the way
+    std::size_t high = n, low = n;
+    for (std::size_t r = 0; r < n; ++r) {
+      const FluidShare<Lanes>& s = shares[r];
+      state[r].here = s.volume[l] > least_fraction * room[l] && s.mass[l] > 0.0;
+      if (!state[r].here) continue;
+      const double density = s.mass[l] / s.volume[l];
+      const auto at = slopes_of(fluids[r].equation_of_state, density, s.internal[l] / s.mass[l]);
+      state[r].pressure = at.pressure;
+      state[r].bulk_modulus = std::max(density * at.per_density + at.pressure * at.per_energy / density,
+                                       least_bulk_modulus(fluids[r].equation_of_state, density));
+      mass += s.mass[l];
+      if (high == n || at.pressure > state[high].pressure) high = r;
     }
-    const double jump = low ? high->pressure - low->pressure : 0.0;
-    if (!(jump > crushing * (low ? low->bulk_modulus : 0.0))) return;
-    FluidShare<Lanes>&pressed = shares[low->fluid], &expands = shares[high->fluid];
-    const double a = pressed.volume[l], b = expands.volume[l], rise = low->bulk_modulus / a, fall = high->bulk_modulus / b;
-    const double dV = std::min(jump / (rise + fall), bit * std::min(a, b));
-    const double taken = (low->pressure + 0.5 * rise * dV) * dV, done = (high->pressure - 0.5 * fall * dV) * dV;
+    double worst = crushing;
+    for (std::size_t r = 0; r < n; ++r) {
+      const double jump = state[r].here ? (state[high].pressure - state[r].pressure) / state[r].bulk_modulus : 0.0;
+      if (jump > worst) low = r, worst = jump;
+    }
+    if (low == n) return;
+    FluidShare<Lanes>&pressed = shares[low], &expands = shares[high];
+    const double a = pressed.volume[l], b = expands.volume[l];
+    const double rise = state[low].bulk_modulus / a, fall = state[high].bulk_modulus / b;
+    const double dV = std::min((state[high].pressure - state[low].pressure) / (rise + fall), bit * std::min(a, b));
+    const double taken = (state[low].pressure + 0.5 * rise * dV) * dV, done = (state[high].pressure - 0.5 * fall * dV) * dV;
     pressed.volume.set(l, a - dV), pressed.internal.set(l, pressed.internal[l] + taken);
     expands.volume.set(l, b + dV), expands.internal.set(l, expands.internal[l] - done);
-    for (FluidShare<Lanes>& s : shares)
-      if (is_here(s)) s.internal.set(l, s.internal[l] + (done - taken) * s.mass[l] / all);
+    for (std::size_t r = 0; r < n; ++r)
+      if (state[r].here) shares[r].internal.set(l, shares[r].internal[l] + (done - taken) * shares[r].mass[l] / mass);
   }
 }
 
@@ -300,7 +306,6 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
   const auto look = [&] {
     pressure = weight = stiffest = Lanes(0.0), lowest = Lanes(1e300), highest = least = Lanes(-1e300);
     space = room;
-    Lanes softest(1e300);
     for (std::size_t r = 0; r < n; ++r) {
       present[r] = is_present(shares[r], room);
       space -= select(present[r], Lanes(0.0), shares[r].volume);
@@ -313,13 +318,14 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
       shares[r].bulk_modulus = bulk, shares[r].gruneisen = at.per_energy * v[r];
       const Lanes compliance = m[r] * v[r] / bulk;
       pressure += select(present[r], compliance * at.pressure, Lanes(0.0)), weight += compliance;
-      softest = select(present[r] & (at.pressure < lowest), bulk, softest);
+      residual[r] = at.pressure;
       lowest = select(present[r], min(lowest, at.pressure), lowest);
       highest = select(present[r], max(highest, at.pressure), highest);
       least = select(present[r], max(least, Lanes(fluids[r].least_pressure)), least);
       stiffest = select(present[r], max(stiffest, bulk), stiffest);
     }
-    crushed = highest - lowest > crushing * softest;
+    crushed = LanesMask(false);
+    for (std::size_t r = 0; r < n; ++r) crushed |= present[r] & (highest - residual[r] > crushing * shares[r].bulk_modulus);
   };
   look();
   if (any(crushed)) {

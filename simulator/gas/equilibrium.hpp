@@ -22,10 +22,10 @@ struct EquilibriumCount {
   double iterations = 0.0, cells = 0.0, bisected = 0.0;
 };
 /// One of eight cells, in which a fluid stands beside a pressure that crushes it (more than half of its own bulk modulus above
-/// its own), as air beside the products of a detonation: the fluid of lowest pressure gives room to that of the highest, bit by
-/// bit, each along its isentrope, and what the one does more work than the other takes warms all by mass. Work against the
-/// final pressure would leave all of it to the fluid that is pressed together: a little air in a cell full of products would
-/// get hundreds of times the energy that a shock gives it.
+/// its own), as air beside the products of a detonation: the fluid that is crushed most gives room to that of the highest
+/// pressure, bit by bit, each along its isentrope, and what the one does more work than the other takes warms all by mass. Work
+/// against the final pressure would leave all of it to the fluid that is pressed together: a little air in a cell full of
+/// products would get hundreds of times the energy that a shock gives it.
 void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room, int lane);
 /// Moves volumes and energies until all fluids have one pressure (Pa), which it returns. What is left of jumps when those that
 /// crush have been relaxed is work against that final pressure, so the sums of volumes and of energies do not change. Absent

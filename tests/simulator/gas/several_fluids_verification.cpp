@@ -338,6 +338,28 @@ TEST(Equilibrium, PressesAirTogetherAlongItsIsentrope) {
   }
 }
 
+/// A fluid that stands between two others is seen, whichever of it and stiff water has the lower pressure, and no energy is
+/// lost.
+TEST(Equilibrium, SeesTheFluidThatIsCrushedWhateverWaterHas) {
+  for (const double of_water : {1.1e5, 0.9e5, -1e6}) {
+    std::vector<Fluid> fluids = {air, water, products};
+    for (Fluid& f : fluids) give_usual_state(f);
+    std::vector<FluidShare<Lanes>> shares(3);
+    double before = 0.0, after = 0.0;
+    const auto put = [&](std::size_t r, double density, double pressure, double part) {
+      shares[r].mass = Lanes(density * part), shares[r].volume = Lanes(part);
+      shares[r].internal = shares[r].mass * energy_of(fluids[r].equation_of_state, density, pressure);
+      before += shares[r].internal[0];
+    };
+    put(0, 1.2, 1e5, 1e-3), put(1, 1000.0, of_water, 0.499), put(2, 150.0, 1e8, 0.5);
+    const double start = shares[0].internal[0];
+    const Lanes found = equilibrate(fluids, shares, Lanes(1.0));
+    for (const auto& s : shares) after += s.internal[0];
+    EXPECT_NEAR(shares[0].internal[0] / (start * std::pow(found[0] / 1e5, 0.4 / 1.4)), 1.0, 0.05) << "water at " << of_water;
+    EXPECT_NEAR(after, before, 1e-13 * shares[1].internal[0]);
+  }
+}
+
 /// Two gases of equal mass and very different pressures: each takes half of what the work of the one is more than that of the
 /// other. p V^1.4 is integrated in small steps.
 TEST(Equilibrium, WarmsByMassWhatIsLeftOfTheWork) {
