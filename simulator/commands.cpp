@@ -149,10 +149,11 @@ int check_case(const Options& o) {
   fmt::print("  {:24} {:.1f} MB\n  {:24} {:.4g} s, limited by {}\n", "memory", dry.megabytes, "time step", dry.first_step,
              dry.limit);
   const int threads = omp_get_max_threads();
-  fmt::print("  {:24} {:.3g}\n  {:24} {:.0f} ns per {} and step, measured now with {} thread{}\n", "steps, an estimate",
-             dry.steps, "speed", dry.nanoseconds, point, threads, threads == 1 ? "" : "s");
-  fmt::print("  {:24} {}\n", "time, an estimate",
-             dry.hours < 0.1 ? fmt::format("{:.1f} s", 3600.0 * dry.hours) : fmt::format("{:.2f} h", dry.hours));
+  fmt::print("  {:24} {:.3g}\n", "steps, an estimate", dry.steps);
+  if (dry.nanoseconds > 0.0)
+    fmt::print("  {:24} {:.0f} ns per {} and step, measured now with {} thread{}\n  {:24} {}\n", "speed", dry.nanoseconds,
+               point, threads, threads == 1 ? "" : "s", "time, an estimate",
+               dry.hours < 0.1 ? fmt::format("{:.1f} s", 3600.0 * dry.hours) : fmt::format("{:.2f} h", dry.hours));
   for (const std::string& warning : dry.warnings) fmt::print("  warning: {}\n", warning);
   return done;
 }

@@ -44,6 +44,15 @@ std::vector<std::string> warnings_of(const Case& c, const Simulation& s, double 
   return warnings;
 }
 
+/// After the first step has been rejected, as a run would: warns if none of the shorter ones is taken either.
+void try_shorter(Simulation& s, double first, std::vector<std::string>& warnings) {
+  constexpr double shortest = 1e-6;  // of the first
+  for (double dt = 0.5 * first; dt > shortest * first; dt *= 0.5)
+    if (advance(s, dt) == StepOutcome::done) return;
+  warnings.push_back(fmt::format("its first step fails, however short: the start is no state to go on from{}",
+                                 s.gas.empty() ? "" : "; a fluid may hold less energy than its density takes when it is cold"));
+}
+
 }  // namespace
 
 DryRun dry_run(const Case& c, Simulation& s) {
@@ -65,7 +74,11 @@ DryRun dry_run(const Case& c, Simulation& s) {
   double shortest = 0.0;  // other programs only make a step longer
   for (int i = 0; i < most_steps && seconds(start) < long_enough; ++i) {
     const auto step_start = Clock::now();
-    if (advance(s, next_step(s, c.numerics, c.end_time).dt) == StepOutcome::rejected) break;
+    const double dt = next_step(s, c.numerics, c.end_time).dt;
+    if (advance(s, dt) == StepOutcome::rejected) {
+      if (i == 0) try_shorter(s, dt, result.warnings);
+      break;
+    }
     shortest = i == 0 ? seconds(step_start) : std::min(shortest, seconds(step_start));
   }
   double bytes = static_cast<double>(s.grid.bytes() + s.gas.bytes());

@@ -21,7 +21,7 @@ struct DryRun {
   double first_step = 0.0;   // s
   std::string limit;         // what the first step is limited by
   double steps = 0.0;        // an estimate: of solids as if the steps stayed as those taken, of gas by step_estimate.hpp
-  double nanoseconds = 0.0;  // per particle or cell and step, of a few steps taken
+  double nanoseconds = 0.0;  // per particle or cell and step, of a few steps taken; 0: the first was rejected
   double hours = 0.0;
   std::vector<std::string> warnings;
 };

@@ -89,6 +89,42 @@ TEST(RunCommand, ACaseWithMistakesIsBadInput) {
   EXPECT_EQ(call({"--help"}).code, done);
 }
 
+/// Kilojoules for megajoules: dense products with less energy than they have when cold.
+TEST(CommandLine, ChecksThatTheFirstStepCanBeTaken) {
+  const fs::path directory = scratch();
+  const std::string materials = std::string(BRISANCE_SOURCE_DIR) + "/data/materials/";
+  const auto charge = [&](const std::string& energy) {
+    return write_text(directory / "charge.toml", R"(geometry = "spherical_1d"
+cell_size = "5 mm"
+end_time = "1 ms"
+[gas]
+lower = [0]
+upper = ["0.5 m"]
+[[gas.fluid]]
+name = "air"
+material = ")" + materials + R"(air.toml"
+[[gas.fluid]]
+name = "products"
+material = ")" + materials + R"(tnt_products.toml"
+[[gas.fill]]
+fluid = "air"
+density = "1.2 kg/m^3"
+pressure = "1e5 Pa"
+[[gas.fill]]
+fluid = "products"
+shape = { sphere = { centre = [0], radius = "52.7 mm" } }
+density = "1630 kg/m^3"
+energy = ")" + energy + "\"\n")
+        .string();
+  };
+  const Answer cold = call({"check", charge("4.3 kJ")}), hot = call({"check", charge("4.3 MJ")});
+  EXPECT_EQ(cold.code, done);
+  EXPECT_TRUE(contains(cold.out, "warning: its first step fails, however short")) << cold.out;
+  EXPECT_FALSE(contains(cold.out, "ns per cell")) << cold.out;
+  EXPECT_FALSE(contains(hot.out, "warning")) << hot.out;
+  EXPECT_TRUE(contains(hot.out, "ns per cell")) << hot.out;
+}
+
 TEST(CommandLine, SaysWhatIsMeantByAWordThatItDoesNotTake) {
   EXPECT_TRUE(contains(call({"run", "sod", "--set", "end_time=12", "us", "--overwrite"}).err,
                        "run: \"us\" was not expected; a value with spaces stands in quotes: --set \"end_time=12 us\"\n"));
