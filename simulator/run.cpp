@@ -57,7 +57,7 @@ std::vector<std::string> gates_passed(const Path& directory) {
 
 /// Begins the line of the log which tells when, in s, a gate that had ended a run is judged again: what resumes it may come to
 /// its end before.
-constexpr std::string_view again = "that gate is judged again at ";
+constexpr std::string_view again = "the gate that ended it is judged again at ";
 /// The last such time; -1: never.
 double gate_time_in(const Path& directory) {
   double time = -1.0;

@@ -35,8 +35,8 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Damerau-Levenshtein distance (optimal string alignment): F. J. Damerau, Commun. ACM 7 (1964) 171-176. Another digit counts
-/// twice: numbers tell names apart.
+/// Damerau-Levenshtein distance (optimal string alignment): F. J. Damerau, Commun. ACM 7 (1964) 171-176. A digit for
+/// another character counts twice: numbers tell names apart.
 int edit_distance(std::string_view a, std::string_view b) {
   std::vector<int> before_last(b.size() + 1), last(b.size() + 1), current(b.size() + 1);
   std::iota(last.begin(), last.end(), 0);

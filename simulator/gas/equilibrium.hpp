@@ -25,7 +25,10 @@ struct EquilibriumCount {
 /// its own), as air beside the products of a detonation: the fluid that is crushed most gives room to that of the highest
 /// pressure, bit by bit, each along its isentrope, and what the one does more work than the other takes warms all by mass. Work
 /// against the final pressure would leave all of it to the fluid that is pressed together: a little air in a cell full of
-/// products would get hundreds of times the energy that a shock gives it.
+/// products would get hundreds of times the energy that a shock gives it. Ends when none is crushed, or after a hundred bits: a
+/// gas without heat resists nothing. Changes volume (m^3) and internal energy (J) of that lane alone, not their sums. Pressure
+/// relaxation along isentropes as by Saurel, Petitpas & Berry, J. Comput. Phys. 228 (2009) 1678, who deal what is dissipated
+/// otherwise.
 void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room, int lane);
 /// Moves volumes and energies until all fluids have one pressure (Pa), which it returns. What is left of jumps when those that
 /// crush have been relaxed is work against that final pressure, so the sums of volumes and of energies do not change. Absent

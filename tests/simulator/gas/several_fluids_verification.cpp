@@ -559,7 +559,8 @@ TEST(RiemannProblem, AtRandomHasThePlateauOfTheExactSolution) {
     }
   }
   // The goal is none. What is reached: all that miss are small against what drives the flow, and of the 60 right by that
-  // measure.
+  // measure: the farthest is a shock from gas into water (54), 0.48 % off with 400 cells, 0.008 % with 800. While fluids had
+  // slopes at their edges it was 0.25 %.
   const int known = long_tests() ? 86 : 4;
   EXPECT_LE(failures, known) << "of " << compared;
   EXPECT_EQ(plain_failures, 0) << "of " << plain;

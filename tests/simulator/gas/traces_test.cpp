@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulator/case_reader.hpp"
+#include "simulator/gas/donor.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/setup.hpp"
 #include "simulator/step_size.hpp"
@@ -49,7 +50,7 @@ TEST(Charge, ThatExpandsIntoAirDoesNotEmptyTheCellsAtItsFront) {
 /// 367 steps, and no pressure was found.
 TEST(RateStick, DetonatesOnFineCells) {
   const Case c =
-      read_case(std::string(BRISANCE_SOURCE_DIR) + "/data/cases/anfo_rate_stick.toml",
+      read_case(BRISANCE_SOURCE_DIR "/data/cases/anfo_rate_stick.toml",
                 {"cell_size=0.125 mm", "gas.fill.1.shape.cylinder.radius=4 mm", "gas.fill.2.shape.cylinder.radius=4 mm",
                  "gas.upper=[\"8 mm\", \"12 mm\"]", "figure.0.to=[0, \"12 mm\"]"});
   Simulation s = simulator::set_up(c);
@@ -114,6 +115,21 @@ TEST(Trace, HasTheSameBitsOnEveryNumberOfRanks) {
   };
   const auto one = energies_after(1);
   for (const int ranks : {2, 4}) EXPECT_TRUE(energies_after(ranks) == one) << ranks << " ranks";
+}
+
+/// A fluid has slopes where it fills the donor or there is about as much of it on both sides, and none at its edge.
+TEST(Slopes, AreWhereAFluidIsNotAtItsEdge) {
+  const auto has = [](double behind, double here, double ahead) {
+    return has_slopes(Lanes(behind), Lanes(here), Lanes(ahead))[3];
+  };
+  EXPECT_TRUE(has(1.0, 1.0, 1.0));
+  EXPECT_TRUE(has(0.0, 1.0, 0.4)) << "it fills the donor";
+  EXPECT_TRUE(has(0.010, 0.011, 0.012)) << "a trace, as much of it everywhere";
+  EXPECT_TRUE(has(0.40, 0.5, 0.62));
+  EXPECT_FALSE(has(1.0, 0.7, 0.1));
+  EXPECT_FALSE(has(0.5, 0.5, 0.1)) << "it ends ahead";
+  EXPECT_FALSE(has(0.1, 0.5, 0.5)) << "it begins here";
+  EXPECT_FALSE(has(1e-5, 1e-4, 1e-3));
 }
 
 /// A cell at the surface of water above a charge, as it was in a run: traces of products of no pressure at all, of air, and
