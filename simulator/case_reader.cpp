@@ -58,7 +58,7 @@ class CaseReader : public KeyReader<CaseReader> {
       for (std::size_t b = 0; b < case_.boundaries.size(); ++b) check_stroke(tables[b], case_.boundaries[b]);
     }
     if (case_.gas) {
-      for (const char* key : {"boundary", "load", "measure"})
+      for (const char* key : {"boundary", "load"})
         if (top.has(key)) top.problem(key, "it would be ignored: there are no solids; the sides of the gas are [[gas.edge]]");
     }
     return std::move(case_);
@@ -142,6 +142,15 @@ class CaseReader : public KeyReader<CaseReader> {
   void read_value(TableReader& in, const K& key, std::optional<InitialPorosity>& value) {
     TableReader table = in.table(key.name);
     read_law(table, value.emplace());
+  }
+  /// What was measured has the unit of the kind, which stands before it among the keys.
+  void read_value(TableReader& in, const Key<MeasureConfig, std::optional<double>>& key, std::optional<double>& value) {
+    Quantity wanted = quantity(key);
+    if (key.member == &MeasureConfig::measured) {
+      if (!in.sound({"kind"})) return;
+      wanted.unit = unit_of(in.choice<MeasureKind>("kind"));
+    }
+    value = in.number(key.name, wanted);
   }
   template <class K>
   void read_value(TableReader& in, const K& key, std::optional<GasConfig>& value) {
@@ -565,13 +574,41 @@ class CaseReader : public KeyReader<CaseReader> {
     if (!surface && gauge.side) in.problem("side", "it would be ignored: the kind is not surface");
   }
 
+  /// The point gauge of a measure of gas; nothing that is said of solids.
+  void check_gas_measure(TableReader& in, const MeasureConfig& measure) {
+    const auto ignored = [&](const char* key, bool given) {
+      if (given) in.problem(key, "it would be ignored: the kind is one of gas");
+    };
+    ignored("body", !measure.body.empty()), ignored("axis", measure.axis != MeasureConfig{}.axis);
+    if (!in.has("ambient")) in.problem("ambient", "missing: the pressure before the wave, from which overpressures count");
+    if (!in.has("gauge")) return in.problem("gauge", "missing: the gauge, of kind point, at which it is measured");
+    std::vector<std::string_view> points;
+    for (std::size_t n = 0; n < case_.gauges.size(); ++n) {
+      if (!in.sound_in_file({fmt::format("gauge.{}.name", n), fmt::format("gauge.{}.kind", n)})) return;
+      if (case_.gauges[n].kind == GaugeKind::point) points.push_back(case_.gauges[n].name);
+    }
+    if (in.sound({"gauge"}) && std::find(points.begin(), points.end(), measure.gauge) == points.end())
+      in.problem("gauge", "there is no gauge " + in_quotes(measure.gauge) + " of kind point" +
+                              (points.empty() ? "" : "; there is " + listed(points) + did_you_mean(measure.gauge, points)));
+  }
+
   void check(TableReader& in, MeasureConfig& measure, const std::vector<MeasureConfig>& others) {
-    resolve_body(in, measure.body, "the measure");
-    if (in.sound({"axis"})) require_component_in_geometry(in, measure.axis, case_);
-    const bool kind_known = in.sound({"kind"});
-    if (measure.name.empty() && kind_known && in.sound({"name", "at"})) {
+    const bool kind_known = in.sound({"kind"}), of_gas = kind_known && is_of_gas(measure.kind);
+    if (kind_known && of_gas != case_.gas.has_value())
+      return in.problem("kind", fmt::format("it is measured of {} alone, and this case is one of {}", of_gas ? "gas" : "solids",
+                                            of_gas ? "solids" : "gas"));
+    if (of_gas) {
+      check_gas_measure(in, measure);
+    } else if (!case_.gas) {
+      resolve_body(in, measure.body, "the measure");
+      if (in.sound({"axis"})) require_component_in_geometry(in, measure.axis, case_);
+      for (const char* key : {"gauge", "ambient"})
+        if (kind_known && in.has(key)) in.problem(key, "it would be ignored: the kind is none of gas");
+    }
+    if (measure.name.empty() && kind_known && in.sound({"name", "at", "gauge"})) {
       measure.name = choices<MeasureKind>[static_cast<std::size_t>(measure.kind)];
       if (measure.kind == MeasureKind::diameter_at) measure.name += fmt::format("_{}", measure.at);
+      if (of_gas) measure.name = measure.gauge + '_' + measure.name;
     }
     require_own_name(in, measure, others);
     if (kind_known && in.sound({"at"}) && (measure.kind == MeasureKind::diameter_at) != (measure.at > 0.0))

@@ -240,14 +240,39 @@ enum class MeasureKind {
   mushroom_diameter,  // largest diameter
   diameter_at,        // diameter at a distance from the impact face, given as a part of the initial length
   undeformed_length,  // from the rear face to where the radius exceeds the initial one by a tolerance
-  profile_error       // mean of |computed - measured radius|, over the initial radius
+  profile_error,      // mean of |computed - measured radius|, over the initial radius
+  // of the gas at a gauge, in its positive phase: the time above the ambient pressure in which it is highest
+  peak_overpressure,
+  arrival_time,       // when half of the peak is reached
+  positive_duration,  // from then on
+  positive_impulse    // integral of the overpressure over the phase, per area
 };
+constexpr bool is_of_gas(MeasureKind kind) {
+  return kind >= MeasureKind::peak_overpressure;
+}
+constexpr Unit unit_of(MeasureKind kind) {
+  switch (kind) {
+    case MeasureKind::profile_error:
+      return Unit::one;
+    case MeasureKind::peak_overpressure:
+      return Unit::Pa;
+    case MeasureKind::arrival_time:
+    case MeasureKind::positive_duration:
+      return Unit::s;
+    case MeasureKind::positive_impulse:
+      return Unit::Pa_s;
+    default:
+      return Unit::m;
+  }
+}
 struct MeasureConfig {
   std::string name;  // under which it stands in summary.json
   MeasureKind kind = MeasureKind::final_length;
   std::string body;
   Axis axis = Axis::y;
   double at = 0.0;                 // see kind
+  std::string gauge;               // of kind point: kinds of gas
+  std::optional<double> ambient;   // Pa, before the wave: kinds of gas
   std::optional<double> measured;  // by experiment, SI
   std::filesystem::path profile;   // CSV of an experiment's profile
 };
@@ -379,7 +404,8 @@ template <>
 inline constexpr std::array choices<simulator::FigureKind> = {std::string_view{"line"}};
 template <>
 inline constexpr std::array choices<simulator::MeasureKind> = {
-    std::string_view{"final_length"}, std::string_view{"mushroom_diameter"}, std::string_view{"diameter_at"},
-    std::string_view{"undeformed_length"}, std::string_view{"profile_error"}};
+    std::string_view{"final_length"},      std::string_view{"mushroom_diameter"}, std::string_view{"diameter_at"},
+    std::string_view{"undeformed_length"}, std::string_view{"profile_error"},     std::string_view{"peak_overpressure"},
+    std::string_view{"arrival_time"},      std::string_view{"positive_duration"}, std::string_view{"positive_impulse"}};
 
 }  // namespace brisance

@@ -270,20 +270,24 @@ inline constexpr auto keys<GaugeConfig> = std::tuple{
     Key{"side", &GaugeConfig::side, Unit::one, "which surface along that axis, of kind surface; the upper one if not given"}};
 
 template <>
-inline constexpr auto keys<MeasureConfig> =
-    std::tuple{Key{"kind", &MeasureConfig::kind, Unit::one,
-                   "final_length, mushroom_diameter, diameter_at (a part of the initial length from the impact face), "
-                   "undeformed_length, or "
-                   "profile_error",
-                   any_value, required},
-               Key{"name", &MeasureConfig::name, Unit::one, "under which it stands in summary.json; the kind if not given"},
-               Key{"body", &MeasureConfig::body, Unit::one, "the body it is of; the only one if not given"},
-               Key{"axis", &MeasureConfig::axis, Unit::one, "axis of the body; the impact face is at its lower end"},
-               Key{"at", &MeasureConfig::at, Unit::one,
-                   "distance from the impact face over the initial length, of kind diameter_at", fraction},
-               Key{"measured", &MeasureConfig::measured, Unit::m, "what an experiment gave", positive},
-               Key{"profile", &MeasureConfig::profile, Unit::one,
-                   "measured profile: CSV with columns radius and height, beside this file; of kind profile_error"}};
+inline constexpr auto keys<MeasureConfig> = std::tuple{
+    Key{"kind", &MeasureConfig::kind, Unit::one,
+        "final_length, mushroom_diameter, diameter_at (a part of the initial length from the impact face), "
+        "undeformed_length, or profile_error; of gas at a gauge, of the time above the ambient pressure in which "
+        "it is highest: peak_overpressure, arrival_time (of half the peak), positive_duration (from then on), "
+        "positive_impulse (per area)",
+        any_value, required},
+    Key{"name", &MeasureConfig::name, Unit::one,
+        "under which it stands in summary.json; if not given the kind, of gas GAUGE_KIND"},
+    Key{"body", &MeasureConfig::body, Unit::one, "the body it is of; the only one if not given"},
+    Key{"axis", &MeasureConfig::axis, Unit::one, "axis of the body; the impact face is at its lower end"},
+    Key{"at", &MeasureConfig::at, Unit::one, "distance from the impact face over the initial length, of kind diameter_at",
+        fraction},
+    Key{"gauge", &MeasureConfig::gauge, Unit::one, "the gauge at whose point it is measured, of kinds of gas"},
+    Key{"ambient", &MeasureConfig::ambient, Unit::Pa, "the pressure before the wave, of kinds of gas", positive},
+    Key{"measured", &MeasureConfig::measured, Unit::one, "what an experiment gave, in the unit of the kind", positive},
+    Key{"profile", &MeasureConfig::profile, Unit::one,
+        "measured profile: CSV with columns radius and height, beside this file; of kind profile_error"}};
 
 template <>
 inline constexpr auto keys<OutputConfig> = std::tuple{

@@ -106,6 +106,7 @@ class Run {
           "machine; nothing need be done about it");
     return guarded([&] {
       history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), 0);
+      measures_.observe(s_);
       add_row();
       if (case_.output.snapshot_interval > 0.0) add_snapshot();
       loop();
@@ -131,6 +132,7 @@ class Run {
     std::filesystem::remove(options_.directory / "summary.json");  // it told of the part before
     snapshot_times_ = restored.progress.snapshot_times;
     row_time_ = restored.progress.row_time;
+    measures_.restore(restored.progress.measures);
     last_checkpoint_ = restored.file;
     return guarded([&] {
       history_.emplace(options_.directory / "history.csv", books_of(s_), gauges_.columns(), restored.progress.history_rows);
@@ -224,6 +226,7 @@ class Run {
       within_step_ = true;
       advance_one_step();
       within_step_ = false;
+      measures_.observe(s_);
       const bool gate_is_due = before < gate_time_ && gate_time_ <= s_.time;
       if (count(s_.time, row_interval_) > count(before, row_interval_) || gate_is_due) add_row();
       if (count(s_.time, case_.output.snapshot_interval) > count(before, case_.output.snapshot_interval)) add_snapshot();
@@ -295,8 +298,8 @@ class Run {
   }
   void add_checkpoint() {
     history_->synchronise();
-    last_checkpoint_ =
-        write_checkpoint(options_.directory, s_, {log_.wall_time(), history_->rows(), row_time_, snapshot_times_});
+    last_checkpoint_ = write_checkpoint(options_.directory, s_,
+                                        {log_.wall_time(), history_->rows(), row_time_, snapshot_times_, measures_.numbers()});
     last_checkpoint_time_ = Clock::now();
     log_.line(fmt::format("step {}, time {:.6g} s, time step {:.4g} s: checkpoint {}", s_.step, s_.time, s_.last_time_step,
                           last_checkpoint_.filename().string()));
@@ -409,11 +412,12 @@ RunResult resume(const Case& c, Simulation& s, const RunOptions& options) {
 }
 
 Summary report(const Case& c, Simulation& s, const Path& directory) {
-  const Measures measures(c, s);
+  Measures measures(c, s);
   const std::string ending = read_ending(directory / "summary.json").value_or(ToldEnding{"has no end yet", ""}).ending;
   const Of of = ending == word_of(Ending::failed) ? Of::failed_run : Of::good_run;
   std::vector<std::string> troubles;
   const Restored restored = restore_newest(directory, s, [&](const std::string& trouble) { troubles.push_back(trouble); });
+  measures.restore(restored.progress.measures);
   Summary summary{c.title,
                   c.below_title(),
                   ending + ", as of " + restored.file.filename().string(),

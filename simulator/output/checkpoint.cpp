@@ -81,6 +81,7 @@ void write(const Path& path, const Simulation& s, const RunProgress& progress) {
   keep("progress", std::vector<double>{progress.wall_time, progress.row_time});
   keep("history_rows", std::vector<std::int64_t>{progress.history_rows});
   keep("snapshot_times", progress.snapshot_times);
+  keep("measures", progress.measures);
   if (!s.gas.empty()) keep("gas", gas::numbers_of(s.gas));
   file.group("bodies");
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
@@ -122,6 +123,7 @@ Content read(const Path& path, const Simulation& s) {
   content.progress.wall_time = progress.at(0), content.progress.row_time = progress.at(1);
   content.progress.history_rows = file.integers("history_rows").at(0);
   content.progress.snapshot_times = file.doubles("snapshot_times");
+  if (file.has("measures")) content.progress.measures = file.doubles("measures");  // older ones measured nothing over time
   if (!s.gas.empty()) content.gas = file.doubles("gas");
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     const Particles& ps = s.bodies[b].particles;

@@ -18,6 +18,7 @@ struct RunProgress {
   std::int64_t history_rows = 0;
   double row_time = -1.0;              // s, of the last row
   std::vector<double> snapshot_times;  // s
+  std::vector<double> measures{};      // as Measures keeps them
 };
 
 /// Writes a checkpoint in place of the older of the two in a directory and returns its path. If that fails, the newer one is as

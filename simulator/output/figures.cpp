@@ -643,6 +643,7 @@ std::vector<std::string> draw_figures(const Case& c, const Simulation& s, const 
   if (s.dimensions() > 1) attempt([&] { draw_field(c, s, directory, of); });
   std::vector<std::size_t> drawn;
   for (const MeasureConfig& measure : c.measures) {
+    if (is_of_gas(measure.kind)) continue;
     const std::size_t body = body_of(measure, s);
     if (std::find(drawn.begin(), drawn.end(), body) != drawn.end()) continue;
     drawn.push_back(body);

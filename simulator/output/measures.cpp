@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 
 #include "models/input/csv.hpp"
 #include "models/interpolate.hpp"
+#include "simulator/gas/fields.hpp"
 #include "simulator/output/fields.hpp"
 
 namespace brisance::simulator {
@@ -76,6 +78,60 @@ double mean_deviation(const Profile& profile, const MeasuredProfile& measured, c
   return sum / (static_cast<double>(measured.height.size()) * undeformed.radius);
 }
 
+MeasuredValue result_of(const MeasureConfig& config) {
+  return {config.name, std::string(unit_of(config.kind).text), std::numeric_limits<double>::quiet_NaN(), config.measured};
+}
+
+MeasuredValue of_body(const MeasureConfig& config, const Profile& profile, const Undeformed& undeformed,
+                      const MeasuredProfile& measured) {
+  MeasuredValue result = result_of(config);
+  switch (config.kind) {
+    case MeasureKind::final_length:
+      result.value = profile.length;
+      break;
+    case MeasureKind::mushroom_diameter:
+      result.value = 2.0 * profile.largest;
+      break;
+    case MeasureKind::diameter_at:
+      result.value = 2.0 * profile.radius_at(config.at * undeformed.length);
+      break;
+    case MeasureKind::undeformed_length:
+      result.value = undeformed_length(profile, undeformed);
+      break;
+    default:
+      result.value = mean_deviation(profile, measured, undeformed);
+  }
+  return result;
+}
+
+MeasuredValue of_phase(const MeasureConfig& config, const PositivePhase::Result& phase) {
+  constexpr double negligible = 1e-6;  // of the ambient pressure; rounding is far below
+  MeasuredValue result = result_of(config);
+  if (phase.peak < negligible * *config.ambient) {
+    result.missing = "the pressure there has not risen above the ambient one";
+    return result;
+  }
+  const bool over_all_of_it = config.kind == MeasureKind::positive_duration || config.kind == MeasureKind::positive_impulse;
+  if (over_all_of_it && !phase.ended) {
+    result.missing = "the positive phase has not ended; take a later end_time";
+    return result;
+  }
+  switch (config.kind) {
+    case MeasureKind::peak_overpressure:
+      result.value = phase.peak;
+      break;
+    case MeasureKind::arrival_time:
+      result.value = phase.arrival;
+      break;
+    case MeasureKind::positive_duration:
+      result.value = phase.end - phase.arrival;
+      break;
+    default:
+      result.value = phase.impulse;
+  }
+  return result;
+}
+
 }  // namespace
 
 double Profile::radius_at(double at) const {
@@ -138,7 +194,9 @@ std::vector<std::string> other_experiment(const Case& c) {
     const auto of = [&](std::string_view table) { return key == table || key.starts_with(std::string(table) + '.'); };
     const bool how = key.find(".material") != std::string::npos || key.ends_with(".particles_per_direction") ||
                      key.ends_with(".locking_cure") || key.ends_with(".name");
-    if (compared && !how && (of("solid") || of("boundary") || of("load") || of("gravity") || of("geometry")))
+    if (compared && !how &&
+        (of("solid") || of("boundary") || of("load") || of("gravity") || of("geometry") || of("gas.fill") || of("gas.edge") ||
+         of("gas.body") || of("gas.reaction") || of("gauge")))
       changes.push_back(change);
   }
   return changes;
@@ -146,40 +204,51 @@ std::vector<std::string> other_experiment(const Case& c) {
 
 Measures::Measures(const Case& c, const Simulation& start) {
   for (const MeasureConfig& config : c.measures) {
-    Measure measure{config, body_of(config, start), {}, {}};
-    const Profile profile = profile_of(start, start.bodies[measure.body], config.axis);
-    measure.undeformed = {profile.length, profile.largest};
-    if (config.kind == MeasureKind::profile_error) measure.profile = read_profile(config.profile);
+    Measure measure{config};
+    if (is_of_gas(config.kind)) {
+      measure.place = std::find_if(c.gauges.begin(), c.gauges.end(), [&](const GaugeConfig& gauge) {
+                        return gauge.name == config.gauge;
+                      })->from;
+    } else {
+      measure.body = body_of(config, start);
+      const Profile profile = profile_of(start, start.bodies[measure.body], config.axis);
+      measure.undeformed = {profile.length, profile.largest};
+      if (config.kind == MeasureKind::profile_error) measure.profile = read_profile(config.profile);
+    }
     measures_.push_back(std::move(measure));
   }
 }
 
+void Measures::observe(const Simulation& s) {
+  for (Measure& measure : measures_) {
+    if (!is_of_gas(measure.config.kind)) continue;
+    if (const auto cell = gas::find_cell(s.gas, measure.place))  // none where a body is
+      measure.phase.add(s.time,
+                        s.gas.primitive.cell(cell->block, gas::Primitive::pressure, cell->cell) - *measure.config.ambient);
+  }
+}
+
+std::vector<double> Measures::numbers() const {
+  std::vector<double> numbers;
+  for (const Measure& measure : measures_)
+    if (is_of_gas(measure.config.kind)) measure.phase.append_to(numbers);
+  return numbers;
+}
+
+void Measures::restore(const std::vector<double>& numbers) {
+  std::span<const double> rest(numbers);
+  for (Measure& measure : measures_)
+    if (is_of_gas(measure.config.kind)) measure.phase.take_from(rest);
+  if (!rest.empty()) throw std::runtime_error("its measures are of another case");
+}
+
 std::vector<MeasuredValue> Measures::read(const Simulation& s) const {
   std::vector<MeasuredValue> values;
-  for (const Measure& measure : measures_) {
-    const MeasureConfig& config = measure.config;
-    const Profile profile = profile_of(s, s.bodies[measure.body], config.axis);
-    MeasuredValue result{config.name, "m", 0.0, config.measured};
-    switch (config.kind) {
-      case MeasureKind::final_length:
-        result.value = profile.length;
-        break;
-      case MeasureKind::mushroom_diameter:
-        result.value = 2.0 * profile.largest;
-        break;
-      case MeasureKind::diameter_at:
-        result.value = 2.0 * profile.radius_at(config.at * measure.undeformed.length);
-        break;
-      case MeasureKind::undeformed_length:
-        result.value = undeformed_length(profile, measure.undeformed);
-        break;
-      case MeasureKind::profile_error:
-        result.unit = "1";
-        result.value = mean_deviation(profile, measure.profile, measure.undeformed);
-        break;
-    }
-    values.push_back(result);
-  }
+  for (const Measure& measure : measures_)
+    values.push_back(is_of_gas(measure.config.kind)
+                         ? of_phase(measure.config, measure.phase.result())
+                         : of_body(measure.config, profile_of(s, s.bodies[measure.body], measure.config.axis),
+                                   measure.undeformed, measure.profile));
   return values;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
-// Measures: numbers that an experiment gives as well.
+// Measures: numbers that an experiment gives as well, of bodies as they end, of pressures in the gas over time.
 
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "simulator/config.hpp"
+#include "simulator/output/positive_phase.hpp"
 #include "simulator/simulation.hpp"
 
 namespace brisance::simulator {
@@ -37,6 +38,7 @@ struct MeasuredValue {
   std::string name, unit;
   double value = 0.0;
   std::optional<double> measured;
+  std::string missing{};  // why there is no value, which is not a number then
   /// (value - measured) / measured
   std::optional<double> deviation() const { return measured ? std::optional((value - *measured) / *measured) : std::nullopt; }
 };
@@ -49,14 +51,23 @@ class Measures {
  public:
   /// Looks at the bodies as set up, and reads measured profiles.
   Measures(const Case& c, const Simulation& start);
+  /// Adds the state after a step, or at the start, to what is measured over time.
+  void observe(const Simulation& s);
   std::vector<MeasuredValue> read(const Simulation& s) const;
+
+  /// What has been measured over time, for a checkpoint, and back. `restore` throws std::runtime_error if it is of other
+  /// measures.
+  std::vector<double> numbers() const;
+  void restore(const std::vector<double>& numbers);
 
  private:
   struct Measure {
     MeasureConfig config;
     std::size_t body = 0;
-    Undeformed undeformed;
-    MeasuredProfile profile;
+    Undeformed undeformed{};
+    MeasuredProfile profile{};
+    Vector place{};         // of a gauge in the gas
+    PositivePhase phase{};  // of the pressure there
   };
   std::vector<Measure> measures_;
 };

@@ -128,7 +128,8 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
        units = Json::object(), versions = Json::object();
   for (const MeasuredValue& m : s.measures) {
     measures.set(m.name, m.value);
-    if (m.measured) comparison.set(m.name, Json::object().set("measured", *m.measured).set("deviation", *m.deviation()));
+    if (m.measured && m.missing.empty())
+      comparison.set(m.name, Json::object().set("measured", *m.measured).set("deviation", *m.deviation()));
   }
   for (const GaugePeak& p : s.peaks)
     gauges.set(p.name, Json::object().set("peak", p.value).set("unit", p.unit).set("time", p.time));
@@ -205,10 +206,17 @@ std::string in_words(const Summary& s) {
       return std::abs(*v.deviation()) < 1.0 || !length ? fmt::format("{:+.2f} %", 100.0 * *v.deviation())
                                                        : fmt::format("{:+.3f} mm", 1e3 * (v.value - *v.measured));
     };
-    const auto shown = [&](double x) { return length ? fmt::format("{:.4f} mm", 1e3 * x) : fmt::format("{:.5f}", x); };
-    text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", m.name, shown(m.value), m.measured ? shown(*m.measured) : "",
-                        m.measured ? difference(m) : "");
+    const auto shown = [&](double x) {
+      return length          ? fmt::format("{:.4f} mm", 1e3 * x)
+             : m.unit == "1" ? fmt::format("{:.5f}", x)
+                             : fmt::format("{:.5g} {}", x, m.unit);
+    };
+    const bool there = m.missing.empty();
+    text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", m.name, there ? shown(m.value) : "none",
+                        m.measured ? shown(*m.measured) : "", m.measured && there ? difference(m) : "");
   }
+  for (const MeasuredValue& m : s.measures)
+    if (!m.missing.empty()) text += fmt::format("  caution: {}: {}\n", m.name, m.missing);
   if (!s.other_experiment.empty())
     text += fmt::format("  caution: measured is the experiment of the case as its file states it; --set has changed {}\n",
                         fmt::join(s.other_experiment, ", "));

@@ -115,8 +115,13 @@ from = ["20 mm", "5 mm"]
 fields = ["pressure", "fraction_air"]
 )";
 
-/// The same with an explosive that is lit.
-inline const std::string burning = gases + R"([[gas.fluid]]
+/// The same with a measure and an explosive that is lit.
+inline const std::string burning = gases + R"([[measure]]
+kind = "peak_overpressure"
+gauge = "wall"
+ambient = "1 atm"
+measured = "2 MPa"
+[[gas.fluid]]
 name = "explosive"
 material = "pbx_9501.toml"
 [[gas.reaction]]
