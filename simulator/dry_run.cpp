@@ -61,6 +61,7 @@ DryRun dry_run(const Case& c, Simulation& s) {
   if (!s.gas.empty()) result.points.push_back({"gas", s.gas.cells.count(), "cells"});
   for (const gas::MovingBody& body : s.gas.bodies.all)
     result.points.push_back({body.name, static_cast<std::int64_t>(body.places.size()), "particles"});
+  if (!s.gas.empty()) result.fills = gas::fill_reports(c, s.gas);
   const auto points = static_cast<double>(count_points(s));
   const StepSize first = next_step(s, c.numerics, c.end_time);
   result.first_step = first.dt, result.limit = first.limit;

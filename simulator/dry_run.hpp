@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "simulator/gas/fill_reports.hpp"
 #include "simulator/simulation.hpp"
 
 namespace brisance::simulator {
@@ -17,6 +18,7 @@ struct DryRun {
     std::string_view kind;  // "particles" of a body, "cells" of the gas
   };
   std::vector<Points> points;
+  std::vector<gas::FillReport> fills;
   double megabytes = 0.0;
   double first_step = 0.0;   // s
   std::string limit;         // what the first step is limited by

@@ -13,6 +13,7 @@
 
 #include "models/programs/files.hpp"
 #include "models/programs/progress.hpp"
+#include "simulator/gas/fill_reports.hpp"
 #include "simulator/gas/foreseen_meetings.hpp"
 #include "simulator/gates.hpp"
 #include "simulator/output/checkpoint.hpp"
@@ -98,6 +99,8 @@ class Run {
     const std::string subtitle = case_.below_title().empty() ? "" : ", " + case_.below_title();
     log_.line(fmt::format("{}{}: {} {}s, {} thread{}", case_.title, subtitle, count_points(s_), name_of_points(s_), threads,
                           threads == 1 ? "" : "s"));
+    if (!s_.gas.empty())
+      for (const gas::FillReport& fill : gas::fill_reports(case_, s_.gas)) log_.line(fill.name + ": " + fill.words);
     for (const std::string& warning : options_.warnings) log_.line("warning: " + warning);
     if (const std::string what = not_gated(case_.gates, s_); !what.empty()) log_.line("not gated: " + what);
     if (s_.gas.implicit)

@@ -11,6 +11,7 @@
 #include "models/update.hpp"
 #include "models/visit.hpp"
 #include "simulator/gas/bodies_setup.hpp"
+#include "simulator/gas/fill_reports.hpp"
 #include "simulator/gas/foreseen_meetings.hpp"
 #include "simulator/gas/initial_state.hpp"
 #include "simulator/solid/shapes.hpp"
@@ -153,6 +154,7 @@ std::vector<std::string> set_up_warnings(const Case& c) {
   too_many("snapshot_interval", c.output.snapshot_interval, "snapshots", 1e3);
   too_many("history_interval", c.output.history_interval, "rows of history.csv", 1e5);
   if (!c.gas) return warnings;
+  for (std::string& warning : gas::warnings_of_fills(c)) warnings.push_back(std::move(warning));
   for (const ReactionConfig& reaction : c.gas->reactions)
     if (const auto reason = what_does_not_start(c, reaction))
       warnings.push_back(

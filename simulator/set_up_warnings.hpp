@@ -8,8 +8,8 @@
 
 namespace brisance::simulator {
 
-/// One sentence each: bodies that start molten, moving ones with nothing in their way, reactions that nothing starts, bodies in
-/// a gas that it leaks through or that it does not meet, more output than anyone reads.
+/// One sentence each: bodies that start molten, moving ones with nothing in their way, reactions that nothing starts, fills of
+/// few cells, bodies in a gas that it leaks through or that it does not meet, more output than anyone reads.
 std::vector<std::string> set_up_warnings(const Case& c);
 
 }  // namespace brisance::simulator

@@ -486,6 +486,12 @@ void find_equilibrium(Gas& gas, Domain& domain) {
   gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
 }
 
+double internal_energy_of(const EquationOfState& law, const Filling& filling) {
+  const bool by_temperature = filling.temperature > 0.0 && eos::caloric(law) == eos::Caloric::barotropic;
+  return by_temperature ? eos::energy(law, filling.density, filling.temperature)
+                        : energy_of(law, filling.density, filling.pressure);
+}
+
 void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell, std::span<const Portion> portions) {
   const int D = gas.dimensions();
   const auto i = static_cast<std::size_t>(gas.cells.index(block, cell)[0] - gas.cells.metric.first);
@@ -495,9 +501,7 @@ void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell
   for (const auto& [part, filling] : portions) {
     const double room = part * whole, mass = filling.density * room;
     const EquationOfState& law = gas.fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state;
-    const bool by_temperature = filling.temperature > 0.0 && eos::caloric(law) == eos::Caloric::barotropic;
-    const double internal = mass * (by_temperature ? eos::energy(law, filling.density, filling.temperature)
-                                                   : energy_of(law, filling.density, filling.pressure));
+    const double internal = mass * internal_energy_of(law, filling);
     double kinetic = 0.0;
     for (int a = 0; a < D; ++a) {
       const double u = filling.velocity[static_cast<std::size_t>(a)];

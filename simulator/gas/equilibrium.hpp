@@ -41,6 +41,8 @@ Lanes coldest_energy(const Fluid& fluid, const Lanes& density);
 
 /// e(rho, p), J/kg, to the last digits: pressures are linear in the energy, or nearly.
 double energy_of(const EquationOfState& law, double density, double pressure);
+/// J/kg, of what a cell is filled with.
+double internal_energy_of(const EquationOfState& law, const Filling& filling);
 
 /// A state that the fluid can have, for lanes without it.
 void give_usual_state(Fluid& fluid);

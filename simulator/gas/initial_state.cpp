@@ -12,6 +12,7 @@
 #include "models/input/diagnostics.hpp"
 #include "models/input/units.hpp"
 #include "models/interpolate.hpp"
+#include "simulator/gas/equilibrium.hpp"
 #include "simulator/solid/shapes.hpp"
 #include "simulator/step_failure.hpp"
 
@@ -294,15 +295,17 @@ std::vector<Portion> InitialState::in_cell(const Vector& middle) const {
   return portions;
 }
 
-double InitialState::volume_of(std::size_t fill, const OpenParts& open) const {
+template <class F>
+void InitialState::visit_fill(std::size_t fill, const OpenParts& open, F&& f) const {
   const Cells& cells = *cells_;
   const Fill& sought = fills_[fill];
   std::array<int, 3> first{}, last{1, 1, 1};
   for (std::size_t a = 0; a < static_cast<std::size_t>(cells.dimensions); ++a) {
-    first[a] = std::max(cells.lower[a], static_cast<int>(std::floor(sought.lower[a] / cells.cell_size)) - 1);
-    last[a] = std::min(cells.upper[a], static_cast<int>(std::ceil(sought.upper[a] / cells.cell_size)) + 1);
+    const double lowest = cells.lower[a], highest = cells.upper[a];
+    first[a] = static_cast<int>(std::clamp(std::floor(sought.lower[a] / cells.cell_size) - 1.0, lowest, highest));
+    last[a] = static_cast<int>(std::clamp(std::ceil(sought.upper[a] / cells.cell_size) + 1.0, lowest, highest));
   }
-  double sum = 0.0;
+  std::vector<std::pair<Vector, double>> parts;
   for (int k = first[2]; k < last[2]; ++k)
     for (int j = first[1]; j < last[1]; ++j)
       for (int i = first[0]; i < last[0]; ++i) {
@@ -311,15 +314,47 @@ double InitialState::volume_of(std::size_t fill, const OpenParts& open) const {
         for (std::size_t a = 0; a < static_cast<std::size_t>(cells.dimensions); ++a)
           middle[a] = (index[a] + 0.5) * cells.cell_size;
         double part = 0.0, whole = 0.0;
-        const int all = visit(middle, [&](int here, const Vector&, double volume) {
+        parts.clear();
+        const int all = visit(middle, [&](int here, const Vector& x, double volume) {
           whole += volume;
-          if (here == static_cast<int>(fill)) part += volume;
+          if (here != static_cast<int>(fill)) return;
+          part += volume;
+          if (!sought.is_uniform()) parts.emplace_back(x, volume);
         });
+        if (all >= 0 ? all != static_cast<int>(fill) : part == 0.0) continue;
         const double whole_cell = cells.metric.volume[static_cast<std::size_t>(i - cells.metric.first)];
         const double volume = open ? open(index) * whole_cell : whole_cell;
-        sum += all >= 0 ? (all == static_cast<int>(fill) ? volume : 0.0) : volume * (part / whole);
+        if (all >= 0 || sought.is_uniform()) f(middle, all >= 0 ? volume : volume * (part / whole));
+        for (const auto& [x, of_place] : parts) f(x, volume * (of_place / whole));
       }
+}
+
+double InitialState::volume_of(std::size_t fill, const OpenParts& open) const {
+  double sum = 0.0;
+  visit_fill(fill, open, [&](const Vector&, double volume) { sum += volume; });
   return sum;
+}
+
+FillContent InitialState::content_of(std::size_t fill, const OpenParts& open) const {
+  const Fill& sought = fills_[fill];
+  const EquationOfState& law = sought.fluid->equation_of_state;
+  FillContent content;
+  const auto add = [&](const Filling& state) {
+    const double energy = internal_energy_of(law, state);
+    const auto extend = [](FillContent::Range& range, double value) {
+      range = {std::min(range.lowest, value), std::max(range.highest, value)};
+    };
+    extend(content.density, state.density), extend(content.pressure, state.pressure), extend(content.energy, energy);
+    extend(content.temperature, equation_of_state::temperature(law, state.density, energy));
+    extend(content.sound_speed, std::sqrt(equation_of_state::sound_speed_squared(law, state.density, energy)));
+  };
+  if (sought.is_uniform()) add(sought.filling);
+  visit_fill(fill, open, [&](const Vector& x, double volume) {
+    const Filling state = sought.at(x, cells_->dimensions);
+    content.mass += state.density * volume, content.volume += volume;
+    if (!sought.is_uniform()) add(state);
+  });
+  return content;
 }
 
 }  // namespace brisance::simulator::gas

@@ -2,6 +2,7 @@
 // What the fills of a case say about a cell: which of them hold how much of it, and in what state.
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -32,6 +33,16 @@ bool varies(const GasStateConfig& state);
 /// The part of a cell of the box that bodies leave to the gas; none: all.
 using OpenParts = std::function<double(const std::array<int, 3>& cell)>;
 
+/// What a fill holds of the box: mass and volume per whole cell, radian or steradian (see Metric), and its state, which varies
+/// with a profile or formulas.
+struct FillContent {
+  struct Range {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -std::numeric_limits<double>::infinity();
+  };
+  double mass = 0.0, volume = 0.0;                            // kg, m^3
+  Range density, pressure, temperature, energy, sound_speed;  // kg/m^3, Pa, K, J/kg, m/s
+};
+
 class InitialState {
  public:
   /// Throws std::runtime_error when a fill with an energy holds none of the box.
@@ -39,6 +50,8 @@ class InitialState {
 
   /// What a cell of the box holds, by the position of its middle. A cell in one state is one portion of part 1.
   std::vector<Portion> in_cell(const Vector& middle) const;
+  /// What the fill of this number holds, where later ones do not lie over it.
+  FillContent content_of(std::size_t fill, const OpenParts& open = {}) const;
 
  private:
   struct Fill {
@@ -55,6 +68,9 @@ class InitialState {
   /// that fill if it is.
   template <class F>
   int visit(const Vector& middle, F&& f) const;
+  /// Calls f(place, volume) for what a fill holds of each cell of the box: once if its state is the same everywhere.
+  template <class F>
+  void visit_fill(std::size_t fill, const OpenParts& open, F&& f) const;
   double volume_of(std::size_t fill, const OpenParts& open) const;
 
   std::vector<Fill> fills_;
