@@ -44,6 +44,13 @@ class Describer : public KeyDescriber<Describer> {
   void describe(const std::string& path, const Key<OutputConfig, std::string>& key, const std::string& fresh) {
     describe_fields(path, key, "one", scalar_fields(), fresh + ", of gas density");
   }
+  /// What was measured has the unit of its kind.
+  void describe(const std::string& path, const Key<MeasureConfig, std::optional<double>>& key, const std::optional<double>&) {
+    add(path, key,
+        key.member == &MeasureConfig::measured
+            ? "a number in the SI unit of the kind or a text such as \"9 mm\" or \"2 kPa\", > 0"
+            : numbers(key));
+  }
   template <class K>
   void describe(const std::string& path, const K& key, const Vector&) {
     const bool three = key.components == Components::three;
