@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "models/equation_of_state/thermodynamics.hpp"
+#include "simulator/gas/own_blocks.hpp"
 #include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
@@ -472,12 +473,7 @@ bool all_cells_hold_heat(Gas& gas, const CellSet& content) {
 
 void find_equilibrium(Gas& gas, Domain& domain) {
   std::vector<Largest> largest(gas.cells.mine.size());
-  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
-    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
-    largest[i] = gas.dimensions() == 1   ? equilibrium_of<1>(gas, block)
-                 : gas.dimensions() == 2 ? equilibrium_of<2>(gas, block)
-                                         : equilibrium_of<3>(gas, block);
-  });
+  for_each_own_block(gas, [&](auto D, std::size_t i, std::size_t block) { largest[i] = equilibrium_of<D()>(gas, block); });
   gas.wave_rate = gas.motion_rate = 0.0;
   for (const Largest& l : largest) {
     gas.wave_rate = l.wave < gas.wave_rate ? gas.wave_rate : l.wave;

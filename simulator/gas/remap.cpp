@@ -6,8 +6,8 @@
 #include "simulator/gas/donor.hpp"
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/limiter.hpp"
+#include "simulator/gas/own_blocks.hpp"
 #include "simulator/gas/passages.hpp"
-#include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -382,12 +382,7 @@ SweepResult sweep_block(Gas& gas, std::size_t block, int axis) {
 
 bool sweep(Gas& gas, int axis) {
   std::vector<SweepResult> results(gas.cells.mine.size());
-  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
-    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
-    results[i] = gas.dimensions() == 1   ? sweep_block<1>(gas, block, axis)
-                 : gas.dimensions() == 2 ? sweep_block<2>(gas, block, axis)
-                                         : sweep_block<3>(gas, block, axis);
-  });
+  for_each_own_block(gas, [&](auto D, std::size_t i, std::size_t block) { results[i] = sweep_block<D()>(gas, block, axis); });
   bool good = true;
   for (const SweepResult& r : results) gas.flattened += r.flattened, good = good && r.good;
   return good;
