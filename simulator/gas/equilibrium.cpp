@@ -26,11 +26,6 @@ double least_bulk_modulus(const EquationOfState& law, double density) {
   return density * std::max(c * c, 1e-12);
 }
 
-/// Whether the cells hold a fluid; what is next to without volume, or has no mass, is left alone.
-LanesMask is_present(const FluidShare<Lanes>& fluid, const Lanes& room) {
-  return (fluid.volume > least_fraction * room) & (fluid.mass > 0.0);
-}
-
 /// How far above its own a fluid may meet the highest pressure of the cell, in its bulk moduli, before it is relaxed.
 constexpr double crushing = 0.5;
 
@@ -40,7 +35,7 @@ using OfFluids = boost::container::small_vector<T, 8, std::allocator<T>>;
 
 /// One lane, with certainty: the volume that the fluids take at a pressure falls with it, and the pressures they have now
 /// bracket the one sought.
-double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const OfFluids<LanesMask>& present,
+double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const OfFluids<LanesMask>& present,
               double room, int l) {
   double low = std::numeric_limits<double>::infinity(), high = -low, least = -low;
   for (std::size_t r = 0; r < fluids.size(); ++r) {
@@ -83,20 +78,19 @@ double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& 
 }
 
 /// Heat (J) that a fluid holds; of a law that does not tell, what it usually holds.
-Lanes heat_in(const Fluid& fluid, const FluidShare<Lanes>& s) {
+Lanes heat_in(const Fluid& fluid, const FluidShare& s) {
   if (eos::caloric(fluid.equation_of_state) != eos::Caloric::complete) return s.mass * fluid.usual_heat;
   const Lanes density = select(s.volume > 0.0, s.mass / s.volume, Lanes(fluid.usual_density));
   return s.internal - s.mass * coldest_energy(fluid, density);
 }
 
 /// Gives heat (J) to the fluids of a cell, by mass. What is taken away, other than rounding, comes from the heat that each has,
-/// or a fluid of little heat would be left with less than none. If one has, a share of the work of the whole cell having been
-/// more than it held, the others warm it.
-void share_heat(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& heat) {
+/// or a fluid of little heat would be left with less than none.
+void share_heat(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& heat) {
   const std::size_t n = fluids.size();
   std::vector<Lanes> weight(n);
-  Lanes sum(0.0), gross(0.0), mass(0.0);
-  for (const FluidShare<Lanes>& s : shares) mass += s.mass, gross += abs(s.internal);
+  Lanes sum(0.0), gross(0.0);
+  for (const FluidShare& s : shares) gross += abs(s.internal);
   constexpr double rounding = 1e-12;
   const LanesMask taken = heat < -rounding * gross;
   for (std::size_t r = 0; r < n; ++r) {
@@ -105,12 +99,18 @@ void share_heat(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>
     sum += weight[r];
   }
   for (std::size_t r = 0; r < n; ++r) shares[r].internal += heat * weight[r] / max(sum, Lanes(1e-300));
+}
 
+/// A fluid that has less than no heat, a share of the work of the whole cell having been more than it held, is warmed by the
+/// others.
+void warm_cold_fluids(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares) {
+  const std::size_t n = fluids.size();
   LanesMask cold(false);
-  Lanes held(0.0), lent(0.0);
+  Lanes held(0.0), lent(0.0), mass(0.0);
   std::vector<Lanes> lack(n), lends(n);
   for (std::size_t r = 0; r < n; ++r) {
     lends[r] = heat_in(fluids[r], shares[r]);
+    mass += shares[r].mass;
     const LanesMask here = shares[r].mass > 0.0;
     lack[r] = select(here & (lends[r] < 0.0), -lends[r], Lanes(0.0));
     lends[r] = select(here, max(lends[r], Lanes(0.0)), Lanes(0.0));
@@ -133,12 +133,12 @@ void share_heat(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>
 /// trace that is carried ahead of a front expands in the cells of low pressure there, keeps its energy, and is pressed together
 /// when the front comes: cell by cell it would grow hotter and thinner without end, and in detonating sticks it did so until
 /// nothing was left of its mass.
-void cool_traces(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, double fastest) {
+void cool_traces(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, double fastest) {
   constexpr double times = 10.0, usual_heats = 1e3;
   constexpr double most_part = 2.0;  // of the energy, that a squared speed of sound, Gamma (Gamma + 1) e, may be
   const double square = times * times * fastest * fastest;
   for (std::size_t r = 0; r < fluids.size(); ++r) {
-    FluidShare<Lanes>& hot = shares[r];
+    FluidShare& hot = shares[r];
     const double usual = usual_heats * fluids[r].usual_heat;
     const LanesMask suspicious = (most_part * hot.internal > square * hot.mass) & (hot.internal > usual * hot.mass) &
                                  (hot.mass > 0.0) & (hot.volume > 0.0);
@@ -148,12 +148,12 @@ void cool_traces(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>
     const Lanes gamma = slopes_of(fluids[r].equation_of_state, density, energy).per_energy / density;
     const Lanes most = hot.mass * max(square / max(gamma * (gamma + 1.0), Lanes(1e-300)), Lanes(usual));
     Lanes others(0.0);
-    for (const FluidShare<Lanes>& other : shares)
+    for (const FluidShare& other : shares)
       if (&other != &hot) others += other.mass;
     const Lanes excess = select(suspicious & (others > 0.0), max(hot.internal - most, Lanes(0.0)), Lanes(0.0));
     if (none(excess > 0.0)) continue;
     hot.internal -= excess;
-    for (FluidShare<Lanes>& other : shares)
+    for (FluidShare& other : shares)
       if (&other != &hot) other.internal += excess * other.mass / max(others, Lanes(1e-300));
   }
 }
@@ -166,7 +166,7 @@ template <int D>
 Largest equilibrium_of(Gas& gas, std::size_t block) {
   const std::size_t fluids = gas.fluids.size();
   Largest largest;
-  std::vector<FluidShare<Lanes>> shares(fluids);
+  std::vector<FluidShare> shares(fluids);
   const double inverse_cell_size = 1.0 / gas.cells.cell_size;
   const double fastest =
       gas.wave_rate > 0.0 ? gas.wave_rate * gas.cells.cell_size : 1e150;  // nobody knows before the first step
@@ -212,6 +212,7 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
       Lanes heat = select(active, internal, shares[0].internal);
       for (std::size_t r = 0; r < fluids; ++r) heat -= shares[r].internal;
       share_heat(gas.fluids, shares, heat);
+      warm_cold_fluids(gas.fluids, shares);
       cool_traces(gas.fluids, shares, fastest);
       pressure = equilibrate(gas.fluids, shares, space);
       Lanes compliance(0.0);
@@ -220,14 +221,16 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
         Lanes& volume = gas.content.at(block, first + Content::volume)[k];
         Lanes& energy = gas.content.at(block, first + Content::internal)[k];
         volume = select(active, shares[r].volume, volume), energy = select(active, shares[r].internal, energy);
-        compliance += select(is_present(shares[r], room), shares[r].volume / shares[r].bulk_modulus, Lanes(0.0));
+        const LanesMask present = is_present(shares[r].volume, shares[r].mass, room);
+        compliance += select(present, shares[r].volume / shares[r].bulk_modulus, Lanes(0.0));
         gruneisen += shares[r].volume / room * shares[r].gruneisen;
       }
       // The square of a fluid's impedance over the cell's is its part of the mass over that of the compressibility.
       Lanes softness(0.0);
       for (std::size_t r = 0; r < fluids; ++r) {
         Lanes& share = gas.primitive.at(block, Primitive::share(D, static_cast<int>(r)))[k];
-        share = select(is_present(shares[r], room), shares[r].volume / (shares[r].bulk_modulus * compliance), Lanes(0.0));
+        const LanesMask present = is_present(shares[r].volume, shares[r].mass, room);
+        share = select(present, shares[r].volume / (shares[r].bulk_modulus * compliance), Lanes(0.0));
         softness += sqrt(share * shares[r].mass / mass);
       }
       gas.primitive.at(block, Primitive::softness(D, static_cast<int>(fluids)))[k] = min(softness, Lanes(1.0));
@@ -254,7 +257,7 @@ Largest equilibrium_of(Gas& gas, std::size_t block) {
 
 }  // namespace
 
-void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room, int l) {
+void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& room, int l) {
   constexpr double bit = 0.1;     // of the volume
   constexpr int most_bits = 100;  // a gas without heat resists nothing; it keeps 3e-5 of its volume
   struct State {
@@ -267,8 +270,8 @@ void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& sha
     double mass = 0.0;  // of those that are here: one may be pressed to next to nothing on the way
     std::size_t high = n, low = n;
     for (std::size_t r = 0; r < n; ++r) {
-      const FluidShare<Lanes>& s = shares[r];
-      state[r].here = s.volume[l] > least_fraction * room[l] && s.mass[l] > 0.0;
+      const FluidShare& s = shares[r];
+      state[r].here = is_present(s.volume[l], s.mass[l], room[l]);
       if (!state[r].here) continue;
       const double density = s.mass[l] / s.volume[l];
       const auto at = slopes_of(fluids[r].equation_of_state, density, s.internal[l] / s.mass[l]);
@@ -284,7 +287,7 @@ void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& sha
       if (jump > worst) low = r, worst = jump;
     }
     if (low == n) return;
-    FluidShare<Lanes>&pressed = shares[low], &expands = shares[high];
+    FluidShare &pressed = shares[low], &expands = shares[high];
     const double a = pressed.volume[l], b = expands.volume[l];
     const double rise = state[low].bulk_modulus / a, fall = state[high].bulk_modulus / b;
     const double dV = std::min((state[high].pressure - state[low].pressure) / (rise + fall), bit * std::min(a, b));
@@ -296,7 +299,7 @@ void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& sha
   }
 }
 
-Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room,
+Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& room,
                   EquilibriumCount* count) {
   const std::size_t n = fluids.size();
   OfFluids<Lanes> v(n), v0(n), e0(n), m(n), residual(n), stiffness(n), push(n);
@@ -308,7 +311,7 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
     pressure = weight = stiffest = Lanes(0.0), lowest = Lanes(1e300), highest = least = Lanes(-1e300);
     space = room;
     for (std::size_t r = 0; r < n; ++r) {
-      present[r] = is_present(shares[r], room);
+      present[r] = is_present(shares[r].volume, shares[r].mass, room);
       space -= select(present[r], Lanes(0.0), shares[r].volume);
       m[r] = select(present[r], shares[r].mass, Lanes(0.0));
       v0[r] = v[r] = select(present[r], shares[r].volume / shares[r].mass, Lanes(1.0 / fluids[r].usual_density));
@@ -376,7 +379,7 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes
   if (count) count->cells += 8.0;
   Lanes largest_volume(0.0), volumes(0.0), energies(0.0), before(0.0);
   for (std::size_t r = 0; r < n; ++r) before += select(present[r], shares[r].internal, Lanes(0.0));
-  std::vector<FluidShare<Lanes>> original;
+  std::vector<FluidShare> original;
   if (!all(done)) original = shares;
   for (std::size_t r = 0; r < n; ++r) {
     shares[r].internal = select(present[r], shares[r].internal - m[r] * pressure * (v[r] - v0[r]), shares[r].internal);

@@ -12,11 +12,16 @@ namespace brisance::simulator::gas {
 /// Fluids are absent below this part of a cell's volume.
 inline constexpr double least_fraction = 1e-12;
 
-/// Fluids of one cell (or of eight side by side) that are brought to one pressure.
+/// Whether a cell (or each of eight) holds a fluid: what is next to without volume, or has no mass, is left alone.
 template <class Real>
+auto is_present(const Real& volume, const Real& mass, const Real& room) {
+  return (volume > least_fraction * room) & (mass > 0.0);
+}
+
+/// A fluid of eight cells side by side, to be brought to one pressure with the others.
 struct FluidShare {
-  Real mass, volume, internal;   // kg, m^3, J; volume and internal are changed
-  Real bulk_modulus, gruneisen;  // Pa, 1; set
+  Lanes mass, volume, internal;   // kg, m^3, J; volume and internal are changed
+  Lanes bulk_modulus, gruneisen;  // Pa, 1; set
 };
 struct EquilibriumCount {
   double iterations = 0.0, cells = 0.0, bisected = 0.0;
@@ -29,11 +34,11 @@ struct EquilibriumCount {
 /// gas without heat resists nothing. Changes volume (m^3) and internal energy (J) of that lane alone, not their sums. Pressure
 /// relaxation along isentropes as by Saurel, Petitpas & Berry, J. Comput. Phys. 228 (2009) 1678, who deal what is dissipated
 /// otherwise.
-void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room, int lane);
+void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& room, int lane);
 /// Moves volumes and energies until all fluids have one pressure (Pa), which it returns. What is left of jumps when those that
 /// crush have been relaxed is work against that final pressure, so the sums of volumes and of energies do not change. Absent
 /// fluids (no mass) are left alone.
-Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare<Lanes>>& shares, const Lanes& room,
+Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& room,
                   EquilibriumCount* count = nullptr);
 
 /// Energy of a fluid at T = 0, J/kg: with less it has no state. Where a law's energy counts from anywhere there is no limit.

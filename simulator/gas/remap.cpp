@@ -262,7 +262,7 @@ template <int D>
       load<D>(gas.cells, gas.moved, block, first + Content::volume, axis, n, at.volume);
       load<D>(gas.cells, gas.moved, block, first + Content::internal, axis, n, at.internal);
       for (std::size_t c = 0; c < reach; ++c) {
-        at.present[c] = (at.volume[c] > least_fraction * room[c]) & (at.mass[c] > 0.0);
+        at.present[c] = is_present(at.volume[c], at.mass[c], room[c]);
         at.part[c] = at.volume[c] / room[c];
         const Lanes volume = select(at.present[c], at.volume[c], Lanes(1.0));
         at.density[c] = at.mass[c] / volume, at.energy[c] = at.internal[c] / volume;
