@@ -4,8 +4,8 @@
 
 #include "simulator/gas/bodies_step.hpp"
 #include "simulator/gas/donor.hpp"
-#include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/limiter.hpp"
+#include "simulator/gas/pressure_equilibrium.hpp"
 
 namespace brisance::simulator::gas::unsplit {
 namespace {

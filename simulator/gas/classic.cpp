@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "models/equation_of_state/thermodynamics.hpp"
-#include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/exchange.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/ghosts.hpp"
 #include "simulator/gas/transport.hpp"
 #include "simulator/parallel.hpp"
@@ -90,10 +90,6 @@ bool all_own_cells(const Cells& cells, Domain& domain, F&& good) {
   return domain.maximum(all ? 0.0 : 1.0) == 0.0;
 }
 
-eos::PressureSlopes<double> slopes_of(const Fluid& fluid, double density, double energy) {
-  return std::visit([&](const auto& law) { return eos::pressure_slopes(law, density, energy); }, fluid.equation_of_state);
-}
-
 /// Quantities of the fluids of a cell at one pressure.
 struct Equilibrium {
   static constexpr int pressure = 0, density = 1, sound = 2;  // of the mixture, the fastest of its fluids
@@ -107,7 +103,7 @@ constexpr double least_part = 1e-12;
 double specific_volume_at(const Fluid& fluid, double pressure, double energy, double start) {
   double v = start;
   for (int n = 0; n < 100; ++n) {
-    const auto now = slopes_of(fluid, 1.0 / v, energy);
+    const auto now = slopes_of(fluid.equation_of_state, 1.0 / v, energy);
     const double change = (now.pressure - pressure) * v * v / now.per_density;
     const double next = std::clamp(v + change, 0.5 * v, 2.0 * v);
     const bool settled = std::abs(next - v) <= 1e-15 * v;
@@ -132,7 +128,7 @@ bool find_equilibrium(const Gas& gas, const CellSet& s, const Lattice& lattice, 
     here[r] = mass[r] > 0.0 && of(State::volume) > least_part * room;
     if (!here[r]) continue;
     v[r] = fluids == 1 ? room / mass[r] : of(State::volume) / mass[r], energy[r] = of(State::internal) / mass[r];
-    const auto now = slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]);
+    const auto now = slopes_of(gas.fluids[r].equation_of_state, 1.0 / v[r], energy[r]);
     const double soft = mass[r] * v[r] * v[r] / now.per_density;
     p += soft * now.pressure, weight += soft;
   }
@@ -146,7 +142,7 @@ bool find_equilibrium(const Gas& gas, const CellSet& s, const Lattice& lattice, 
       const double density = mass[r] / room;
       v[r] = specific_volume_at(gas.fluids[r], p, energy[r], v[r]);
       sum += density * v[r];
-      slope += density * v[r] * v[r] / slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]).per_density;
+      slope += density * v[r] * v[r] / slopes_of(gas.fluids[r].equation_of_state, 1.0 / v[r], energy[r]).per_density;
     }
     if (std::abs(sum) < 1e-13) break;
     if (k + 1 == most_iterations) good = false;
@@ -157,7 +153,7 @@ bool find_equilibrium(const Gas& gas, const CellSet& s, const Lattice& lattice, 
   for (std::size_t r = 0; r < fluids; ++r) {
     double part = 0.0, compressibility = 0.0;
     if (here[r]) {
-      const auto now = slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]);
+      const auto now = slopes_of(gas.fluids[r].equation_of_state, 1.0 / v[r], energy[r]);
       const double square = now.per_density + now.pressure * now.per_energy * v[r] * v[r];
       part = mass[r] * v[r] / room, compressibility = v[r] / square;
       sound = std::max(sound, std::sqrt(square));

@@ -5,7 +5,7 @@
 
 #include "simulator/gas/acoustic.hpp"
 #include "simulator/gas/donor.hpp"
-#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/friction.hpp"
 #include "simulator/gas/implicit.hpp"
 #include "simulator/gas/own_blocks.hpp"

@@ -4,10 +4,11 @@
 #include <vector>
 
 #include "simulator/gas/donor.hpp"
-#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/limiter.hpp"
 #include "simulator/gas/own_blocks.hpp"
 #include "simulator/gas/passages.hpp"
+#include "simulator/gas/pressure_equilibrium.hpp"
 
 namespace brisance::simulator::gas {
 namespace {

@@ -17,8 +17,9 @@
 #include <vector>
 
 #include "models/equation_of_state/thermodynamics.hpp"
-#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/lagrangian.hpp"
+#include "simulator/gas/pressure_equilibrium.hpp"
 #include "tests/simulator/gas/exact_riemann.hpp"
 #include "tests/simulator/gas/fluids.hpp"
 #include "tests/simulator/gas/set_up.hpp"

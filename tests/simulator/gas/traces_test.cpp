@@ -10,6 +10,8 @@
 #include "simulator/case_reader.hpp"
 #include "simulator/gas/donor.hpp"
 #include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
+#include "simulator/gas/pressure_equilibrium.hpp"
 #include "simulator/setup.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
