@@ -82,9 +82,8 @@ std::string table(const std::vector<Done>& runs) {
   std::string text = "# The gas against exact solutions\n\n";
   text += fmt::format(
       "Written by `./bootstrap.sh validate`; commit {}. The cases are data/cases/*.toml of these names; their references are "
-      "exact "
-      "solutions, or where there is none a fine grid of another scheme (plots/gas_references.cpp). SI units. Wall time in "
-      "seconds, with as many threads as pay, {} at most.\n\n",
+      "exact solutions, or where there is none a fine grid of another scheme (plots/gas_references.cpp). SI units. Wall time "
+      "in seconds, with as many threads as pay, {} at most.\n\n",
       commit_hash(), omp_get_num_procs());
   text += "| case | quantity | goal | reached | | wall |\n|---|---|---|---|---|---|\n";
   for (const Done& d : runs)

@@ -230,56 +230,66 @@ class CaseReader : public KeyReader<CaseReader> {
     const std::size_t before = in.problem_count();
     TableReader table = in.table(form);
     if (in.problem_count() > before) return make_shape(Box{});
-    const auto check_axis = [&](const Cone& cone) {
-      if (in.problem_count() > before) return;
-      if (cone.start == cone.end) table.problem("end", "it is where the start is; a solid of revolution has a length");
-      if (case_.geometry == Geometry::axisymmetric && (cone.start[0] != 0.0 || cone.end[0] != 0.0))
-        table.problem(cone.start[0] != 0.0 ? "start" : "end", "in the axisymmetric geometry it lies on the axis; give x = 0");
-    };
     if (form == "difference") {
       Difference difference{read_shape(table, "from", "what is cut"), read_parts(table, "without")};
       return make_shape(std::move(difference));
     }
-    if (form == "box") {
-      const auto box = read_struct<Box>(table);
-      for (std::size_t k = 0; geometry_known(in) && k < dimensions() && in.problem_count() == before; ++k)
-        if (!(box.lower[k] < box.upper[k]))
-          table.problem("upper", fmt::format("along {} it is {}, not above the lower corner's {}", axis_names[k],
-                                             in_metres(box.upper[k]), in_metres(box.lower[k])));
-      if (in.problem_count() == before && case_.geometry == Geometry::axisymmetric && box.lower[0] < 0.0)
-        table.problem("lower", "x = " + in_metres(box.lower[0]) + "; a radius is not negative");
-      return make_shape(box);
-    }
-    if (form == "sphere") {
-      const auto sphere = read_struct<Sphere>(table);
-      if (in.problem_count() == before && sphere.inner_radius >= sphere.radius)
-        table.problem("inner_radius", "it must be less than the radius");
-      if (in.problem_count() == before && case_.geometry == Geometry::axisymmetric && sphere.centre[0] != 0.0)
-        table.problem("centre", "in the axisymmetric geometry it lies on the axis; give x = 0");
-      return make_shape(sphere);
-    }
-    if (form == "cylinder") {
-      const auto cylinder = read_struct<Cylinder>(table);
-      const Cone cone{cylinder.start, cylinder.end, cylinder.radius, cylinder.radius};
-      check_axis(cone);
-      return make_shape(cone);
-    }
-    if (form == "tube") {
-      const auto tube = read_struct<Tube>(table);
-      const Cone cone{tube.start, tube.end, tube.radius, tube.radius, tube.inner_radius, tube.inner_radius};
-      check_axis(cone);
-      if (in.problem_count() == before && tube.inner_radius >= tube.radius)
-        table.problem("inner_radius", "it must be less than the radius");
-      return make_shape(cone);
-    }
-    const auto cone = read_struct<Cone>(table);
-    check_axis(cone);
-    if (in.problem_count() == before && cone.start_radius == 0.0 && cone.end_radius == 0.0)
+    if (form == "box") return read_simple_shape<Box>(table);
+    if (form == "sphere") return read_simple_shape<Sphere>(table);
+    if (form == "cylinder") return read_simple_shape<Cylinder>(table);
+    if (form == "tube") return read_simple_shape<Tube>(table);
+    return read_simple_shape<Cone>(table);
+  }
+
+  /// A shape of numbers alone. What it is as a whole is judged if each number is sound.
+  template <class Form>
+  ShapePointer read_simple_shape(TableReader& table) {
+    const std::size_t before = table.problem_count();
+    const Form form = read_struct<Form>(table);
+    if (table.problem_count() == before) check_form(table, form);
+    return make_shape(as_drawn(form));
+  }
+  static const Box& as_drawn(const Box& box) { return box; }
+  static const Sphere& as_drawn(const Sphere& sphere) { return sphere; }
+  static const Cone& as_drawn(const Cone& cone) { return cone; }
+  static Cone as_drawn(const Cylinder& c) { return {c.start, c.end, c.radius, c.radius}; }
+  static Cone as_drawn(const Tube& t) { return {t.start, t.end, t.radius, t.radius, t.inner_radius, t.inner_radius}; }
+
+  void check_form(TableReader& table, const Box& box) {
+    const std::size_t before = table.problem_count();
+    for (std::size_t k = 0; geometry_known(table) && k < dimensions() && table.problem_count() == before; ++k)
+      if (!(box.lower[k] < box.upper[k]))
+        table.problem("upper", fmt::format("along {} it is {}, not above the lower corner's {}", axis_names[k],
+                                           in_metres(box.upper[k]), in_metres(box.lower[k])));
+    if (table.problem_count() == before && case_.geometry == Geometry::axisymmetric && box.lower[0] < 0.0)
+      table.problem("lower", "x = " + in_metres(box.lower[0]) + "; a radius is not negative");
+  }
+  void check_form(TableReader& table, const Sphere& sphere) {
+    if (sphere.inner_radius >= sphere.radius)
+      table.problem("inner_radius", "it must be less than the radius");
+    else if (case_.geometry == Geometry::axisymmetric && sphere.centre[0] != 0.0)
+      table.problem("centre", "in the axisymmetric geometry it lies on the axis; give x = 0");
+  }
+  void check_form(TableReader& table, const Cylinder& cylinder) { check_axis(table, cylinder.start, cylinder.end); }
+  void check_form(TableReader& table, const Tube& tube) {
+    const std::size_t before = table.problem_count();
+    check_axis(table, tube.start, tube.end);
+    if (table.problem_count() == before && tube.inner_radius >= tube.radius)
+      table.problem("inner_radius", "it must be less than the radius");
+  }
+  void check_form(TableReader& table, const Cone& cone) {
+    const std::size_t before = table.problem_count();
+    check_axis(table, cone.start, cone.end);
+    if (table.problem_count() > before) return;
+    if (cone.start_radius == 0.0 && cone.end_radius == 0.0)
       table.problem("end_radius", "both radii are zero; one may be");
-    if (in.problem_count() == before &&
-        (cone.inner_start_radius > cone.start_radius || cone.inner_end_radius > cone.end_radius))
+    else if (cone.inner_start_radius > cone.start_radius || cone.inner_end_radius > cone.end_radius)
       table.problem("the hole is wider than the cone");
-    return make_shape(cone);
+  }
+  void check_axis(TableReader& table, const Vector& start, const Vector& end) {
+    if (start == end) table.problem("end", "it is where the start is; a solid of revolution has a length");
+    if (case_.geometry == Geometry::axisymmetric && (start[0] != 0.0 || end[0] != 0.0))
+      table.problem(start[0] != 0.0 ? "start" : "end", "in the axisymmetric geometry it lies on the axis; give x = 0");
   }
 
   std::vector<ShapePointer> read_parts(TableReader& in, std::string_view key) {

@@ -128,8 +128,7 @@ inline constexpr auto keys<BoundaryConfig> = std::tuple{
     Key{"name", &BoundaryConfig::name, Unit::one, "what it is called in output; from kind, axis and side if not given"},
     Key{"velocity", &BoundaryConfig::velocity, Unit::m_per_s,
         "velocity along the axis, of kinds velocity and rigid_wall; a table over time; the grid travels with the plane, which "
-        "for "
-        "more than half a cell must be the only one across its axis"},
+        "for more than half a cell must be the only one across its axis"},
     Key{"friction", &BoundaryConfig::friction, Unit::one, "Coulomb's coefficient, of kind rigid_wall", non_negative}};
 
 template <>

@@ -80,6 +80,16 @@ std::string why_rejected(const Simulation& s, double dt) {
   return s.gas.bodies.empty() ? emptied : emptied + ", or gas would get from one side of a thin body to the other";
 }
 
+/// What a summary tells of the state of a run.
+void tell_state(Summary& summary, const Case& c, const Simulation& s, const Measures& measures, const Path& directory) {
+  summary.title = c.title, summary.subtitle = c.below_title();
+  summary.time = s.time, summary.steps = s.step, summary.particles = count_points(s);
+  summary.threads = omp_get_max_threads();
+  summary.books = books_of(s), summary.measures = measures.read(s), summary.failed = failed_particles(s);
+  summary.not_gated = not_gated(c.gates, s), summary.resumed_after = gates_passed(directory);
+  summary.other_experiment = other_experiment(c);
+}
+
 /// What a run writes, and when.
 class Run {
  public:
@@ -342,15 +352,9 @@ class Run {
   void summarise(RunResult& result) {
     const double seconds = std::chrono::duration<double>(Clock::now() - started_).count();
     Summary& summary = result.summary;
-    summary.resumed_after = gates_passed(options_.directory);
-    summary.title = case_.title, summary.subtitle = case_.below_title(), summary.ending = word_of(result.ending),
-    summary.message = result.message;
-    summary.time = s_.time, summary.steps = s_.step, summary.particles = count_points(s_);
-    summary.wall_time = log_.wall_time(), summary.threads = omp_get_max_threads();
+    summary.ending = word_of(result.ending), summary.message = result.message, summary.wall_time = log_.wall_time();
+    tell_state(summary, case_, s_, measures_, options_.directory);
     summary.particle_steps_per_second = static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds;
-    summary.books = books_of(s_);
-    summary.measures = measures_.read(s_), summary.not_gated = not_gated(case_.gates, s_);
-    summary.other_experiment = other_experiment(case_), summary.failed = failed_particles(s_);
     if (history_) summary.peaks = peaks_of(read_gauges(case_, options_.directory));
   }
 
@@ -421,23 +425,10 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
   std::vector<std::string> troubles;
   const Restored restored = restore_newest(directory, s, [&](const std::string& trouble) { troubles.push_back(trouble); });
   measures.restore(restored.progress.measures);
-  Summary summary{c.title,
-                  c.below_title(),
-                  ending + ", as of " + restored.file.filename().string(),
-                  "",
-                  s.time,
-                  s.step,
-                  count_points(s),
-                  restored.progress.wall_time,
-                  0.0,
-                  omp_get_max_threads(),
-                  books_of(s),
-                  measures.read(s),
-                  {},
-                  not_gated(c.gates, s),
-                  gates_passed(directory),
-                  other_experiment(c),
-                  failed_particles(s)};
+  Summary summary;
+  tell_state(summary, c, s, measures, directory);
+  summary.ending = ending + ", as of " + restored.file.filename().string();
+  summary.wall_time = restored.progress.wall_time;
   for (auto& found :
        {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory, of)})
     troubles.insert(troubles.end(), found.begin(), found.end());

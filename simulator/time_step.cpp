@@ -28,11 +28,17 @@ bool deform(Simulation& s, double dt, ColumnSet Particles::*velocities, double l
   return true;
 }
 
-StepOutcome advance_musl(Simulation& s, double dt, double dt_velocity) {
+/// What the particles give to the nodes, and the velocities that the forces give them.
+NodeResult move_nodes(Simulation& s, double dt, double dt_velocity) {
   particles_to_grid(s, Carry::motion_and_force, dt);
   share_momentum(s);
   const NodeResult nodes = accelerate(s, dt_velocity);
   broadcast_motion(s.grid, *s.domain);
+  return nodes;
+}
+
+StepOutcome advance_musl(Simulation& s, double dt, double dt_velocity) {
+  const NodeResult nodes = move_nodes(s, dt, dt_velocity);
   const ParticleResult particles = grid_to_particles(s, {dt, dt_velocity, true});
   share_momentum(s);
   velocities_from_momentum(s, Touch::as_accelerated, s.time + 0.5 * dt);
@@ -42,10 +48,7 @@ StepOutcome advance_musl(Simulation& s, double dt, double dt_velocity) {
 }
 
 StepOutcome advance_usl(Simulation& s, double dt, double dt_velocity) {
-  particles_to_grid(s, Carry::motion_and_force, dt);
-  share_momentum(s);
-  const NodeResult nodes = accelerate(s, dt_velocity);
-  broadcast_motion(s.grid, *s.domain);
+  const NodeResult nodes = move_nodes(s, dt, dt_velocity);
   const ParticleResult particles = grid_to_particles(s, {dt, dt_velocity, false});
   if (!deform(s, dt, &Particles::next_motion, 0.5 * dt)) return StepOutcome::rejected;
   accept_motion(s, particles, nodes, dt);
@@ -57,10 +60,7 @@ StepOutcome advance_usf(Simulation& s, double dt, double dt_velocity) {
   share_momentum(s);
   velocities_from_momentum(s, Touch::in_sums, s.time - 0.5 * s.last_time_step);
   if (!deform(s, dt, &Particles::motion, -0.5 * dt)) return StepOutcome::rejected;
-  particles_to_grid(s, Carry::motion_and_force, dt);
-  share_momentum(s);
-  const NodeResult nodes = accelerate(s, dt_velocity);
-  broadcast_motion(s.grid, *s.domain);
+  const NodeResult nodes = move_nodes(s, dt, dt_velocity);
   accept_motion(s, grid_to_particles(s, {dt, dt_velocity, false}), nodes, dt);
   return StepOutcome::done;
 }

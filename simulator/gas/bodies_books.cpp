@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "simulator/gas/bodies_step.hpp"
-#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/passages.hpp"
 
 namespace brisance::simulator::gas::unsplit {

@@ -4,8 +4,8 @@
 
 #include "simulator/gas/bodies_step.hpp"
 #include "simulator/gas/donor.hpp"
-#include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/limiter.hpp"
+#include "simulator/gas/pressure_equilibrium.hpp"
 
 namespace brisance::simulator::gas::unsplit {
 namespace {
@@ -184,7 +184,7 @@ void find_donors(Gas& gas) {
     if (neighbourhood) internal += lost;
     for (std::size_t r = 0; r < fluids; ++r) {
       const Real own = held(first(r) + Content::volume), own_mass = held(first(r) + Content::mass);
-      const auto present = (own > least_fraction * volume) & (own_mass > 0.0);
+      const auto present = is_present(own, own_mass, Real(volume));
       const Real divisor = select(present, own, Real(1.0));
       Real heat = held(first(r) + Content::internal);
       if (neighbourhood) heat += lost * (own / volumes);

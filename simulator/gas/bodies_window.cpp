@@ -6,7 +6,7 @@
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "simulator/domain/message.hpp"
 #include "simulator/gas/bodies_step.hpp"
-#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/ghosts.hpp"
 
 namespace brisance::simulator::gas::unsplit {

@@ -187,6 +187,56 @@ void check_transport(TableReader& in, const GasConfig& gas) {
   }
 }
 
+/// The box begins and ends on planes of nodes, and holds some cells.
+void check_box(TableReader& in, const Case& c) {
+  const GasConfig& gas = *c.gas;
+  for (std::size_t k = 0, count = box_known(in) ? dimensions_of(c) : 0; k < count; ++k) {
+    if (!(gas.lower[k] < gas.upper[k]))
+      in.problem("upper", fmt::format("along {} the box ends before it begins", axis_names[k]));
+    for (const auto& [name, corner] : {std::pair{"lower", gas.lower[k]}, std::pair{"upper", gas.upper[k]}}) {
+      const double cells = corner / c.cell_size;
+      if (std::abs(cells - std::round(cells)) > round_off * std::max(1.0, std::abs(cells)))
+        in.problem(name, fmt::format("along {} {} is on no plane of nodes; the nearest are {} and {}", axis_names[k],
+                                     in_metres(corner), in_metres(std::floor(cells) * c.cell_size),
+                                     in_metres(std::ceil(cells) * c.cell_size)));
+    }
+    const double cells = (gas.upper[k] - gas.lower[k]) / c.cell_size;
+    if (cells < least_cells - round_off)
+      in.problem("upper",
+                 fmt::format("along {} the box is {:.3g} cells wide; {:g} at least", axis_names[k], cells, least_cells));
+  }
+}
+
+/// Nothing is said of the length of steps that would go unheard.
+void check_step(TableReader& in, const GasConfig& gas) {
+  if (gas.acoustic_courant != GasConfig{}.acoustic_courant && in.sound({"implicit"}) && !gas.implicit)
+    in.problem("acoustic_courant", "it would be ignored: it is the Courant number of implicit = true");
+  if (gas.courant != 0.0 && gas.implicit)
+    in.problem("courant", "it would be ignored: the steps of implicit = true are those of acoustic_courant");
+  if (gas.momentum_exchange != GasConfig{}.momentum_exchange && in.sound({"scheme"}) && gas.scheme != GasScheme::ice_classic)
+    in.problem("momentum_exchange",
+               "it would be ignored: fluids of a cell have one velocity but with scheme = \"ice_classic\"");
+}
+
+/// What sides ask of each other, and of the geometry.
+void check_edges_together(TableReader& in, const Case& c) {
+  const GasConfig& gas = *c.gas;
+  const bool round = is_round(c.geometry);
+  for (const EdgeConfig& edge : gas.edges) {
+    const auto number = static_cast<std::size_t>(edge.side);
+    const auto opposite = static_cast<BoxSide>(number ^ 1);
+    const bool both = std::any_of(gas.edges.begin(), gas.edges.end(), [&](const EdgeConfig& other) {
+      return other.side == opposite && other.kind == EdgeKind::periodic;
+    });
+    if (edge.kind == EdgeKind::periodic && !both)
+      in.problem("edge",
+                 fmt::format("{} is periodic, {} is not; give both", choices<BoxSide>[number], choices<BoxSide>[number ^ 1]));
+    if (edge.kind == EdgeKind::periodic && round && number < 2) in.problem("edge", "along the radius x nothing is periodic");
+    if (round && edge.side == BoxSide::low_x && gas.lower[0] == 0.0 && edge.kind != EdgeKind::wall)
+      in.problem("edge", "low_x is the axis; it can be nothing else");
+  }
+}
+
 /// The limits of simulator/gas/bodies.hpp.
 void check_with_bodies(TableReader& in, const Case& c) {
   const GasConfig& gas = *c.gas;
@@ -227,11 +277,26 @@ std::optional<Fluid> fluid_of_state(const TableReader& in, const GasStateConfig&
                         in.sound({"density", "temperature", "pressure"});
   return fluid && complete ? std::optional(Fluid{fluid->name, fluid->material.material.equation_of_state}) : std::nullopt;
 }
-/// Reports of each key the first place of some, in the middles of a lattice of cells, where its formula makes no state at a
-/// time (s). Of very many cells it looks at some alone. Returns whether there is one.
-bool check_formulas_at(TableReader& in, const GasStateConfig& state, bool pressure_alone, const Case& c,
-                       std::array<double, 3> first, std::array<double, 3> last, const Shape* shape, double time = 0.0,
-                       double most_places = 1e5) {
+/// Cells of a lattice, the last ones exclusive; no number of cells is too large for a double.
+struct CellRange {
+  std::array<double, 3> first{0.0, 0.0, 0.0}, last{1.0, 1.0, 1.0};
+};
+/// The cells of the box; nothing if it is wrong, which is reported elsewhere.
+std::optional<CellRange> cells_of_box(const TableReader& in, const Case& c) {
+  if (!box_known(in)) return {};
+  CellRange cells;
+  for (std::size_t a = 0; a < dimensions_of(c); ++a) {
+    if (!(c.gas->lower[a] < c.gas->upper[a])) return {};
+    cells.first[a] = std::round(c.gas->lower[a] / c.cell_size), cells.last[a] = std::round(c.gas->upper[a] / c.cell_size);
+  }
+  return cells;
+}
+
+/// Reports of each key the first place of some, in the middles of cells, where its formula makes no state at a time (s). Of
+/// very many cells it looks at some alone. Returns whether there is one.
+bool check_formulas_at(TableReader& in, const GasStateConfig& state, bool pressure_alone, const Case& c, const CellRange& cells,
+                       const Shape* shape, double time = 0.0, double most_places = 1e5) {
+  const auto& [first, last] = cells;
   const std::optional<Fluid> fluid = pressure_alone ? std::nullopt : fluid_of_state(in, state, c);
   std::vector<std::string> refused;
   const auto refuse = [&](const std::string& key, const std::string& what) {
@@ -239,7 +304,7 @@ bool check_formulas_at(TableReader& in, const GasStateConfig& state, bool pressu
     in.problem(key, what);
     refused.push_back(key);
   };
-  std::array<double, 3> step{1.0, 1.0, 1.0};  // cells; no number of cells is too large for them
+  std::array<double, 3> step{1.0, 1.0, 1.0};  // cells
   const double dimensions = c.dimensions();
   for (std::size_t a = 0; a < dimensions_of(c); ++a)
     step[a] = std::max(1.0, std::floor((last[a] - first[a]) / std::pow(most_places, 1.0 / dimensions)));
@@ -260,37 +325,26 @@ bool check_formulas_at(TableReader& in, const GasStateConfig& state, bool pressu
       }
   return !refused.empty();
 }
-/// The cells of the box; what is wrong with it is reported elsewhere.
-bool find_cells(const TableReader& in, const Case& c, std::array<double, 3>& first, std::array<double, 3>& last) {
-  first = {0, 0, 0}, last = {1, 1, 1};
-  if (!box_known(in)) return false;
-  for (std::size_t a = 0; a < dimensions_of(c); ++a) {
-    if (!(c.gas->lower[a] < c.gas->upper[a])) return false;
-    first[a] = std::round(c.gas->lower[a] / c.cell_size), last[a] = std::round(c.gas->upper[a] / c.cell_size);
-  }
-  return true;
-}
 void check_formulas(TableReader& in, const FillConfig& fill, const Case& c) {
-  std::array<double, 3> first, last;
-  if (varies(fill) && !fill.profile && !fill.energy && find_cells(in, c, first, last))
-    check_formulas_at(in, fill, false, c, first, last, fill.shape.get());
+  if (!varies(fill) || fill.profile || fill.energy) return;
+  if (const std::optional<CellRange> box = cells_of_box(in, c)) check_formulas_at(in, fill, false, c, *box, fill.shape.get());
 }
 void check_formulas(TableReader& in, const EdgeConfig& edge, const Case& c) {
-  std::array<double, 3> first, last;
-  const double cells = c.gas->bodies.empty() ? ring : Window::depth;  // beyond the side: with bodies its neighbourhoods as well
   const std::size_t axis = static_cast<std::size_t>(edge.side) / 2;
-  if (!varies(edge) || !find_cells(in, c, first, last) || axis >= dimensions_of(c)) return;
+  std::optional<CellRange> beyond = cells_of_box(in, c);
+  if (!varies(edge) || !beyond || axis >= dimensions_of(c)) return;
+  const double depth = c.gas->bodies.empty() ? ring : Window::depth;  // with bodies their neighbourhoods reach farther
   const bool pressure_alone = in.sound({"kind"}) && edge.kind == EdgeKind::pressure;
   if (static_cast<std::size_t>(edge.side) % 2 == 0)
-    last[axis] = first[axis], first[axis] -= cells;
+    beyond->last[axis] = beyond->first[axis], beyond->first[axis] -= depth;
   else
-    first[axis] = last[axis], last[axis] += cells;
-  if (check_formulas_at(in, edge, pressure_alone, c, first, last, nullptr)) return;
+    beyond->first[axis] = beyond->last[axis], beyond->last[axis] += depth;
+  if (check_formulas_at(in, edge, pressure_alone, c, *beyond, nullptr)) return;
   // A formula that is fine at these times may still fail between them, and ends the run then.
   constexpr int times = 100;
   constexpr double places = 1000.0;  // so that all of it takes a part of a second
   for (int n = 1; n <= times; ++n)
-    if (check_formulas_at(in, edge, pressure_alone, c, first, last, nullptr, c.end_time * n / times, places)) return;
+    if (check_formulas_at(in, edge, pressure_alone, c, *beyond, nullptr, c.end_time * n / times, places)) return;
 }
 
 }  // namespace
@@ -436,49 +490,17 @@ void check(TableReader& in, GasBodyConfig& body, const std::vector<GasBodyConfig
 
 void check_gas(TableReader& in, const Case& c) {
   const GasConfig& gas = *c.gas;
-  for (std::size_t k = 0, count = box_known(in) ? dimensions_of(c) : 0; k < count; ++k) {
-    if (!(gas.lower[k] < gas.upper[k]))
-      in.problem("upper", fmt::format("along {} the box ends before it begins", axis_names[k]));
-    for (const auto& [name, corner] : {std::pair{"lower", gas.lower[k]}, std::pair{"upper", gas.upper[k]}}) {
-      const double cells = corner / c.cell_size;
-      if (std::abs(cells - std::round(cells)) > round_off * std::max(1.0, std::abs(cells)))
-        in.problem(name, fmt::format("along {} {} is on no plane of nodes; the nearest are {} and {}", axis_names[k],
-                                     in_metres(corner), in_metres(std::floor(cells) * c.cell_size),
-                                     in_metres(std::ceil(cells) * c.cell_size)));
-    }
-    const double cells = (gas.upper[k] - gas.lower[k]) / c.cell_size;
-    if (cells < least_cells - round_off)
-      in.problem("upper",
-                 fmt::format("along {} the box is {:.3g} cells wide; {:g} at least", axis_names[k], cells, least_cells));
-  }
-  if (gas.acoustic_courant != GasConfig{}.acoustic_courant && in.sound({"implicit"}) && !gas.implicit)
-    in.problem("acoustic_courant", "it would be ignored: it is the Courant number of implicit = true");
-  if (gas.courant != 0.0 && gas.implicit)
-    in.problem("courant", "it would be ignored: the steps of implicit = true are those of acoustic_courant");
-  if (gas.momentum_exchange != GasConfig{}.momentum_exchange && in.sound({"scheme"}) && gas.scheme != GasScheme::ice_classic)
-    in.problem("momentum_exchange",
-               "it would be ignored: fluids of a cell have one velocity but with scheme = \"ice_classic\"");
+  check_box(in, c);
+  check_step(in, gas);
   check_transport(in, gas);
   if (!geometry_known(in)) return;
   if (gas.scheme == GasScheme::ice_classic) check_classic(in, c);
-  const bool round = is_round(c.geometry);
-  if (round && gas.lower[0] < 0.0) in.problem("lower", "x = " + in_metres(gas.lower[0]) + "; a radius is not negative");
-  if (round && c.gravity[0] != 0.0) in.problem("lower", "gravity along the radius x is not possible");
+  if (is_round(c.geometry) && gas.lower[0] < 0.0)
+    in.problem("lower", "x = " + in_metres(gas.lower[0]) + "; a radius is not negative");
+  if (is_round(c.geometry) && c.gravity[0] != 0.0) in.problem("lower", "gravity along the radius x is not possible");
   if (!gas.bodies.empty()) check_with_bodies(in, c);
-  if (!sound_in_all(in, "edge", gas.edges.size(), "side") || !sound_in_all(in, "edge", gas.edges.size(), "kind")) return;
-  for (const EdgeConfig& edge : gas.edges) {
-    const auto number = static_cast<std::size_t>(edge.side);
-    const auto opposite = static_cast<BoxSide>(number ^ 1);
-    const bool both = std::any_of(gas.edges.begin(), gas.edges.end(), [&](const EdgeConfig& other) {
-      return other.side == opposite && other.kind == EdgeKind::periodic;
-    });
-    if (edge.kind == EdgeKind::periodic && !both)
-      in.problem("edge",
-                 fmt::format("{} is periodic, {} is not; give both", choices<BoxSide>[number], choices<BoxSide>[number ^ 1]));
-    if (edge.kind == EdgeKind::periodic && round && number < 2) in.problem("edge", "along the radius x nothing is periodic");
-    if (round && edge.side == BoxSide::low_x && gas.lower[0] == 0.0 && edge.kind != EdgeKind::wall)
-      in.problem("edge", "low_x is the axis; it can be nothing else");
-  }
+  if (sound_in_all(in, "edge", gas.edges.size(), "side") && sound_in_all(in, "edge", gas.edges.size(), "kind"))
+    check_edges_together(in, c);
 }
 
 void check_gauge(TableReader& in, GaugeConfig& gauge, const Case& c) {

@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "models/equation_of_state/thermodynamics.hpp"
-#include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/exchange.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/ghosts.hpp"
 #include "simulator/gas/transport.hpp"
 #include "simulator/parallel.hpp"
@@ -90,10 +90,6 @@ bool all_own_cells(const Cells& cells, Domain& domain, F&& good) {
   return domain.maximum(all ? 0.0 : 1.0) == 0.0;
 }
 
-eos::PressureSlopes<double> slopes_of(const Fluid& fluid, double density, double energy) {
-  return std::visit([&](const auto& law) { return eos::pressure_slopes(law, density, energy); }, fluid.equation_of_state);
-}
-
 /// Quantities of the fluids of a cell at one pressure.
 struct Equilibrium {
   static constexpr int pressure = 0, density = 1, sound = 2;  // of the mixture, the fastest of its fluids
@@ -107,7 +103,7 @@ constexpr double least_part = 1e-12;
 double specific_volume_at(const Fluid& fluid, double pressure, double energy, double start) {
   double v = start;
   for (int n = 0; n < 100; ++n) {
-    const auto now = slopes_of(fluid, 1.0 / v, energy);
+    const auto now = slopes_of(fluid.equation_of_state, 1.0 / v, energy);
     const double change = (now.pressure - pressure) * v * v / now.per_density;
     const double next = std::clamp(v + change, 0.5 * v, 2.0 * v);
     const bool settled = std::abs(next - v) <= 1e-15 * v;
@@ -132,7 +128,7 @@ bool find_equilibrium(const Gas& gas, const CellSet& s, const Lattice& lattice, 
     here[r] = mass[r] > 0.0 && of(State::volume) > least_part * room;
     if (!here[r]) continue;
     v[r] = fluids == 1 ? room / mass[r] : of(State::volume) / mass[r], energy[r] = of(State::internal) / mass[r];
-    const auto now = slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]);
+    const auto now = slopes_of(gas.fluids[r].equation_of_state, 1.0 / v[r], energy[r]);
     const double soft = mass[r] * v[r] * v[r] / now.per_density;
     p += soft * now.pressure, weight += soft;
   }
@@ -146,7 +142,7 @@ bool find_equilibrium(const Gas& gas, const CellSet& s, const Lattice& lattice, 
       const double density = mass[r] / room;
       v[r] = specific_volume_at(gas.fluids[r], p, energy[r], v[r]);
       sum += density * v[r];
-      slope += density * v[r] * v[r] / slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]).per_density;
+      slope += density * v[r] * v[r] / slopes_of(gas.fluids[r].equation_of_state, 1.0 / v[r], energy[r]).per_density;
     }
     if (std::abs(sum) < 1e-13) break;
     if (k + 1 == most_iterations) good = false;
@@ -157,7 +153,7 @@ bool find_equilibrium(const Gas& gas, const CellSet& s, const Lattice& lattice, 
   for (std::size_t r = 0; r < fluids; ++r) {
     double part = 0.0, compressibility = 0.0;
     if (here[r]) {
-      const auto now = slopes_of(gas.fluids[r], 1.0 / v[r], energy[r]);
+      const auto now = slopes_of(gas.fluids[r].equation_of_state, 1.0 / v[r], energy[r]);
       const double square = now.per_density + now.pressure * now.per_energy * v[r] * v[r];
       part = mass[r] * v[r] / room, compressibility = v[r] / square;
       sound = std::max(sound, std::sqrt(square));
@@ -274,6 +270,140 @@ void exchange_in_cell(const Gas& gas, const Lattice& lattice, const CellSet& q, 
   for (std::size_t r = 0; r < fluids; ++r) of(r, State::internal) = cold[r] + capacity[r] * x[r];
 }
 
+/// Velocities of the faces, and slopes of the parts of the cells.
+Flow find_flow(const Gas& gas, const Lattice& lattice, const CellSet& s, const CellSet& q, double dt) {
+  const int D = lattice.dimensions, fluids = lattice.fluids;
+  Flow flow{lattice, lattice.field(fluids * D), lattice.field(fluids * D)};
+  for_each_own_cell(lattice.cells, [&](const Cell& c) {
+    find_velocities(gas, lattice, s, q, dt, c, flow);
+    for (int r = 0; r < fluids; ++r) {
+      const Vector slope = limited_gradient(lattice, q, Equilibrium::part(r), c.place);
+      for (int a = 0; a < D; ++a) at(flow.slopes, flow.number(r, a), c.place) = slope[static_cast<std::size_t>(a)];
+    }
+  });
+  return flow;
+}
+
+/// Pressures of a step, Pa.
+struct Pressures {
+  static constexpr int after = 0, change = 1, count = 2;
+};
+/// The change of pressure, by the divergence that the advection itself sees. False where more flows out of a cell than it has.
+bool find_pressures(const Lattice& lattice, const CellSet& q, const Flow& flow, double dt, Domain& domain, CellSet& pressures) {
+  return all_own_cells(lattice.cells, domain, [&](const Cell& c) {
+    double change = 0.0, compliance = 0.0, most_out = 0.0;
+    for (int r = 0; r < lattice.fluids; ++r) {
+      const int part = Equilibrium::part(r);
+      double swept_out = 0.0;
+      flow.for_each_face(c, r, dt, [&](int axis, const CellPlace& donor, int sign, double swept, double offset) {
+        change += sign * (swept * (at(q, part, donor) + at(flow.slopes, flow.number(r, axis), donor) * offset));
+        if (donor.block == c.place.block && donor.cell == c.place.cell) swept_out += std::abs(swept);
+      });
+      most_out = std::max(most_out, swept_out);
+      compliance += at(q, part, c.place) * at(q, Equilibrium::compressibility(r), c.place);
+    }
+    change /= lattice.room * compliance;
+    constexpr double least_pressure = 1e-12;
+    at(pressures, Pressures::change, c.place) = change;
+    at(pressures, Pressures::after, c.place) = std::max(at(q, Equilibrium::pressure, c.place) + change, least_pressure);
+    return !(most_out > lattice.room);
+  });
+}
+
+/// Momentum, energy and volume of the fluids of a cell, by the new pressures.
+void push_fluids(const Lattice& lattice, const CellSet& q, const CellSet& pressures, double dt, const CellPlace& c,
+                 CellSet& s) {
+  const int D = lattice.dimensions;
+  const double room = lattice.room;
+  const auto face_pressure = [&](const CellPlace& low, const CellPlace& high) {
+    const double density_low = at(q, Equilibrium::density, low), density_high = at(q, Equilibrium::density, high);
+    return (at(pressures, Pressures::after, low) * density_high + at(pressures, Pressures::after, high) * density_low) /
+           (density_low + density_high);
+  };
+  for (int r = 0; r < lattice.fluids; ++r) {
+    const auto own = [&](int quantity) -> double& { return at(s, State::of(D, r, quantity), c); };
+    const double part = at(q, Equilibrium::part(r), c), compressibility = at(q, Equilibrium::compressibility(r), c);
+    for (int a = 0; a < D; ++a)
+      own(State::momentum + a) -=
+          dt * part * lattice.area * (face_pressure(c, lattice.next(c, a, 1)) - face_pressure(lattice.next(c, a, -1), c));
+    const double change = at(pressures, Pressures::change, c);
+    own(State::internal) += room * part * compressibility * at(pressures, Pressures::after, c) * change;
+    own(State::volume) -= room * part * compressibility * change;
+  }
+}
+
+/// What a unit of mass carries, in the place of the amounts; of the mass the density.
+CellSet carried_by(const Lattice& lattice, const CellSet& s) {
+  const int D = lattice.dimensions, fluids = lattice.fluids;
+  CellSet carried = lattice.field(fluids * State::count(D));
+  for_each_own_cell(lattice.cells, [&](const Cell& cell) {
+    const CellPlace& c = cell.place;
+    for (int r = 0; r < fluids; ++r) {
+      const double mass = at(s, State::of(D, r, State::mass), c);
+      at(carried, State::of(D, r, State::mass), c) = mass / lattice.room;
+      for (int n = State::mass + 1; n < State::count(D); ++n)
+        at(carried, State::of(D, r, n), c) = mass > 0.0 ? at(s, State::of(D, r, n), c) / mass : 0.0;
+    }
+  });
+  return carried;
+}
+
+/// Books the impulse of the walls.
+void book_walls(const Lattice& lattice, const CellSet& q, const CellSet& pressures, double dt, std::vector<Passage>& passages) {
+  for (Passage& side : passages)
+    for_each_cell_of(lattice.cells, side.block, [&](const Cell& c) {
+      const int axis = side.side / 2, outward = side.side % 2 == 0 ? -1 : 1;
+      if (!lattice.wall(c, axis, outward)) return;
+      double& impulse = side.step.momentum[static_cast<std::size_t>(axis)];
+      for (int r = 0; r < lattice.fluids; ++r)
+        impulse -=
+            outward * dt * at(q, Equilibrium::part(r), c.place) * lattice.area * at(pressures, Pressures::after, c.place);
+    });
+}
+
+/// Slopes of what is carried, along each axis.
+CellSet slopes_of_carried(const Lattice& lattice, const CellSet& carried) {
+  const int D = lattice.dimensions, fluids = lattice.fluids;
+  CellSet slopes = lattice.field(fluids * State::count(D) * D);
+  for_each_own_cell(lattice.cells, [&](const Cell& c) {
+    for (int r = 0; r < fluids; ++r) {
+      double shrink = 1.0;
+      for (int n = State::mass; n < State::count(D); ++n) {
+        const int quantity = State::of(D, r, n);
+        const Vector slope = limited_gradient(lattice, carried, quantity, c.place, shrink);
+        for (int a = 0; a < D; ++a) at(slopes, quantity * D + a, c.place) = slope[static_cast<std::size_t>(a)];
+        if (n > State::mass) continue;
+        const double density = at(carried, quantity, c.place);
+        double lightest = density;
+        for (const double g : slope) lightest -= 0.5 * lattice.h * std::abs(g);
+        shrink = lightest > 0.0 ? density / lightest : 1e300;
+      }
+    }
+  });
+  return slopes;
+}
+
+/// Moves what the faces have swept from cell to cell. False where a cell is left without mass.
+bool advect(const Lattice& lattice, const Flow& flow, const CellSet& carried, const CellSet& slopes, double dt, Domain& domain,
+            CellSet& s) {
+  const int D = lattice.dimensions;
+  return all_own_cells(lattice.cells, domain, [&](const Cell& c) {
+    double mass = 0.0;
+    for (int r = 0; r < lattice.fluids; ++r) {
+      const int first = State::of(D, r, State::mass);
+      flow.for_each_face(c, r, dt, [&](int axis, const CellPlace& donor, int sign, double swept, double offset) {
+        const auto slope = [&](int n) { return at(slopes, (first + n) * D + axis, donor); };
+        const double density = at(carried, first, donor), through = swept * (density + slope(State::mass) * offset);
+        at(s, first, c.place) += sign * through;
+        for (int n = State::mass + 1; n < State::count(D); ++n)
+          at(s, first + n, c.place) += sign * (through * at(carried, first + n, donor) + swept * density * slope(n) * offset);
+      });
+      mass += at(s, first, c.place);
+    }
+    return mass > 0.0;
+  });
+}
+
 }  // namespace
 
 std::vector<std::string> classic_limits(const ClassicDemands& demands) {
@@ -363,125 +493,32 @@ void show_classic(Gas& gas, Domain& domain) {
 
 Outcome advance_classic(Gas& gas, double dt, Domain& domain) {
   const Lattice lattice(gas);
-  const Cells& cells = gas.cells;
-  const int D = lattice.dimensions, fluids = lattice.fluids;
-  const double room = lattice.room, area = lattice.area;
+  CellSet s = gas.classic->state, q = lattice.field(Equilibrium::part(lattice.fluids));
+  const auto all_in_equilibrium = [&] {
+    return all_own_cells(gas.cells, domain, [&](const Cell& c) { return find_equilibrium(gas, s, lattice, c, q); });
+  };
   const auto share_all = [&](CellSet& set) { share_scalars(gas, set, Beyond::continued, domain); };
 
-  CellSet s = gas.classic->state, q = lattice.field(Equilibrium::part(fluids));
-  if (!all_own_cells(cells, domain, [&](const Cell& c) { return find_equilibrium(gas, s, lattice, c, q); }))
-    return Outcome::rejected;
+  if (!all_in_equilibrium()) return Outcome::rejected;
   share_all(s), share_all(q);
-  Flow flow{lattice, lattice.field(fluids * D), lattice.field(fluids * D)};
-  for_each_own_cell(cells, [&](const Cell& c) {
-    find_velocities(gas, lattice, s, q, dt, c, flow);
-    for (int r = 0; r < fluids; ++r) {
-      const Vector slope = limited_gradient(lattice, q, Equilibrium::part(r), c.place);
-      for (int a = 0; a < D; ++a) at(flow.slopes, flow.number(r, a), c.place) = slope[static_cast<std::size_t>(a)];
-    }
-  });
+  Flow flow = find_flow(gas, lattice, s, q, dt);
   share_all(flow.speeds), share_all(flow.slopes);
 
-  // The change of pressure, by the divergence that the advection itself sees.
-  constexpr int new_pressure = 0, change_of_pressure = 1;
-  CellSet solved = lattice.field(2);
-  const bool nothing_overdrawn = all_own_cells(cells, domain, [&](const Cell& c) {
-    double change = 0.0, compliance = 0.0, most_out = 0.0;
-    for (int r = 0; r < fluids; ++r) {
-      const int part = Equilibrium::part(r);
-      double swept_out = 0.0;
-      flow.for_each_face(c, r, dt, [&](int axis, const CellPlace& donor, int sign, double swept, double offset) {
-        change += sign * (swept * (at(q, part, donor) + at(flow.slopes, flow.number(r, axis), donor) * offset));
-        if (donor.block == c.place.block && donor.cell == c.place.cell) swept_out += std::abs(swept);
-      });
-      most_out = std::max(most_out, swept_out);
-      compliance += at(q, part, c.place) * at(q, Equilibrium::compressibility(r), c.place);
-    }
-    change /= room * compliance;
-    constexpr double least_pressure = 1e-12;
-    at(solved, change_of_pressure, c.place) = change;
-    at(solved, new_pressure, c.place) = std::max(at(q, Equilibrium::pressure, c.place) + change, least_pressure);
-    return !(most_out > room);
+  CellSet pressures = lattice.field(Pressures::count);
+  if (!find_pressures(lattice, q, flow, dt, domain, pressures)) return Outcome::rejected;
+  share_all(pressures);
+  for_each_own_cell(gas.cells, [&](const Cell& c) {
+    push_fluids(lattice, q, pressures, dt, c.place, s);
+    exchange_in_cell(gas, lattice, q, dt, c.place, s);
   });
-  if (!nothing_overdrawn) return Outcome::rejected;
-  share_all(solved);
+  book_walls(lattice, q, pressures, dt, gas.passages);
 
-  // Lagrangian phase.
-  const auto face_pressure = [&](const CellPlace& c, const CellPlace& d) {
-    const double density_c = at(q, Equilibrium::density, c), density_d = at(q, Equilibrium::density, d);
-    return (at(solved, new_pressure, c) * density_d + at(solved, new_pressure, d) * density_c) / (density_c + density_d);
-  };
-  // What a unit of mass carries, in the place of the amounts; of the mass the density.
-  CellSet carried = lattice.field(fluids * State::count(D));
-  for_each_own_cell(cells, [&](const Cell& cell) {
-    const CellPlace& c = cell.place;
-    for (int r = 0; r < fluids; ++r) {
-      const auto own = [&](int quantity) -> double& { return at(s, State::of(D, r, quantity), c); };
-      const double part = at(q, Equilibrium::part(r), c), compressibility = at(q, Equilibrium::compressibility(r), c);
-      for (int a = 0; a < D; ++a)
-        own(State::momentum + a) -=
-            dt * part * area * (face_pressure(c, lattice.next(c, a, 1)) - face_pressure(lattice.next(c, a, -1), c));
-      const double change = at(solved, change_of_pressure, c);
-      own(State::internal) += room * part * compressibility * at(solved, new_pressure, c) * change;
-      own(State::volume) -= room * part * compressibility * change;
-    }
-    exchange_in_cell(gas, lattice, q, dt, c, s);
-    for (int r = 0; r < fluids; ++r) {
-      const double mass = at(s, State::of(D, r, State::mass), c);
-      at(carried, State::of(D, r, State::mass), c) = mass / room;
-      for (int n = State::mass + 1; n < State::count(D); ++n)
-        at(carried, State::of(D, r, n), c) = mass > 0.0 ? at(s, State::of(D, r, n), c) / mass : 0.0;
-    }
-  });
-  for (Passage& side : gas.passages)
-    for_each_cell_of(cells, side.block, [&](const Cell& c) {
-      const int axis = side.side / 2, outward = side.side % 2 == 0 ? -1 : 1;
-      if (!lattice.wall(c, axis, outward)) return;
-      double& impulse = side.step.momentum[static_cast<std::size_t>(axis)];
-      for (int r = 0; r < fluids; ++r)
-        impulse -= outward * dt * at(q, Equilibrium::part(r), c.place) * area * at(solved, new_pressure, c.place);
-    });
+  CellSet carried = carried_by(lattice, s);
   share_all(carried);
-
-  // Advection.
-  CellSet slopes = lattice.field(fluids * State::count(D) * D);
-  for_each_own_cell(cells, [&](const Cell& c) {
-    for (int r = 0; r < fluids; ++r) {
-      double shrink = 1.0;
-      for (int n = State::mass; n < State::count(D); ++n) {
-        const int quantity = State::of(D, r, n);
-        const Vector slope = limited_gradient(lattice, carried, quantity, c.place, shrink);
-        for (int a = 0; a < D; ++a) at(slopes, quantity * D + a, c.place) = slope[static_cast<std::size_t>(a)];
-        if (n > State::mass) continue;
-        const double density = at(carried, quantity, c.place);
-        double lightest = density;
-        for (const double g : slope) lightest -= 0.5 * lattice.h * std::abs(g);
-        shrink = lightest > 0.0 ? density / lightest : 1e300;
-      }
-    }
-  });
+  CellSet slopes = slopes_of_carried(lattice, carried);
   share_all(slopes);
-  CellSet next = s;
-  const bool all_have_mass = all_own_cells(cells, domain, [&](const Cell& c) {
-    double mass = 0.0;
-    for (int r = 0; r < fluids; ++r) {
-      const int first = State::of(D, r, State::mass);
-      flow.for_each_face(c, r, dt, [&](int axis, const CellPlace& donor, int sign, double swept, double offset) {
-        const auto slope = [&](int n) { return at(slopes, (first + n) * D + axis, donor); };
-        const double density = at(carried, first, donor), through = swept * (density + slope(State::mass) * offset);
-        at(next, first, c.place) += sign * through;
-        for (int n = State::mass + 1; n < State::count(D); ++n)
-          at(next, first + n, c.place) +=
-              sign * (through * at(carried, first + n, donor) + swept * density * slope(n) * offset);
-      });
-      mass += at(next, first, c.place);
-    }
-    return mass > 0.0;
-  });
-  if (!all_have_mass) return Outcome::rejected;
-  if (!all_own_cells(cells, domain, [&](const Cell& c) { return find_equilibrium(gas, next, lattice, c, q); }))
-    return Outcome::rejected;
-  std::swap(gas.classic->state, next);
+  if (!advect(lattice, flow, carried, slopes, dt, domain, s) || !all_in_equilibrium()) return Outcome::rejected;
+  std::swap(gas.classic->state, s);
   return Outcome::done;
 }
 

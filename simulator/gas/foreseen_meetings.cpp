@@ -343,8 +343,7 @@ std::string in_words(const ForeseenMeeting& m) {
       return fmt::format(
           "{} and {}: there is less than half a cell between them at the start, and one of them moves: what the gas does to "
           "each of them where they touch is not resolved, and velocity, force and work can be wrong by several percent; let a "
-          "wall "
-          "of the box take the place of the one at rest, or leave two cells between them",
+          "wall of the box take the place of the one at rest, or leave two cells between them",
           m.body, m.side);
   }
   return {};

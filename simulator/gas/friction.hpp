@@ -3,8 +3,8 @@
 // and fall back in the next, and the gas behind it is hot and cold in turn (the carbuncle: Quirk, Int. J. Numer. Meth. Fluids
 // 18 (1994) 555). A viscosity of the size of the shock's own holds them together (Rodionov, J. Comput. Phys. 345 (2017) 308).
 // It acts where the gas is compressed, and more along a face than across it: a shock that is oblique to the grid would be
-// widened, and neither a rarefaction nor a strain that keeps the volume is a shock. How the strength was
-// chosen is in docs/gas.md. The formulas that the steps with and without bodies have in common (lagrangian.cpp,
+// widened, and neither a rarefaction nor a strain that keeps the volume is a shock. How the strength was chosen is in
+// docs/decisions/gas.md. The formulas that the steps with and without bodies have in common (lagrangian.cpp,
 // bodies_lagrangian.cpp).
 
 #include "simulator/gas/cells.hpp"

@@ -6,6 +6,7 @@
 
 #include "simulator/gas/classic.hpp"
 #include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/ghosts.hpp"
 #include "simulator/gas/implicit.hpp"
 #include "simulator/gas/lagrangian.hpp"

@@ -1,8 +1,7 @@
 #include "simulator/gas/ghosts.hpp"
+#include "simulator/gas/fluid_state.hpp"
 
 #include <algorithm>
-
-#include "simulator/gas/equilibrium.hpp"
 
 namespace brisance::simulator::gas {
 namespace {

@@ -5,8 +5,8 @@
 #include "simulator/domain/message.hpp"
 #include "simulator/gas/acoustic.hpp"
 #include "simulator/gas/ghosts.hpp"
+#include "simulator/gas/own_blocks.hpp"
 #include "simulator/gas/passages.hpp"
-#include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -184,11 +184,6 @@ void open_implicit(Gas& gas, Domain& domain) {
 }
 
 bool solve_pressure(Gas& gas, double dt, Domain& domain) {
-  const auto in_dimensions = [&]<class F>(F&& f) {
-    gas.dimensions() == 1   ? f(std::integral_constant<int, 1>{})
-    : gas.dimensions() == 2 ? f(std::integral_constant<int, 2>{})
-                            : f(std::integral_constant<int, 3>{});
-  };
   const std::vector<std::int32_t>& mine = gas.cells.mine;
   for (const std::int32_t b : mine)
     for (int q = 0; q < HalfStep::plain(gas.dimensions()); ++q)
@@ -196,12 +191,9 @@ bool solve_pressure(Gas& gas, double dt, Domain& domain) {
   share_half_step(gas, dt, domain);  // what lies beyond the edges
 
   std::vector<SystemRows> of_blocks(mine.size());
-  in_dimensions([&](auto D) {
-    parallel_for_blocks(mine.size(), [&](std::size_t i) {
-      const auto block = static_cast<std::size_t>(mine[i]);
-      find_laws<D()>(gas, block, dt);
-      of_blocks[i] = rows_of<D()>(gas, block, dt);
-    });
+  for_each_own_block(gas, [&](auto D, std::size_t i, std::size_t block) {
+    find_laws<D()>(gas, block, dt);
+    of_blocks[i] = rows_of<D()>(gas, block, dt);
   });
   SystemRows rows;
   for (const SystemRows& of_block : of_blocks) {

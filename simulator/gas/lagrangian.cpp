@@ -5,12 +5,12 @@
 
 #include "simulator/gas/acoustic.hpp"
 #include "simulator/gas/donor.hpp"
-#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/friction.hpp"
 #include "simulator/gas/implicit.hpp"
+#include "simulator/gas/own_blocks.hpp"
 #include "simulator/gas/passages.hpp"
 #include "simulator/gas/transport.hpp"
-#include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -365,22 +365,12 @@ bool move(Gas& gas, std::size_t block, double dt) {
 }  // namespace
 
 void advance_half_step(Gas& gas, double dt) {
-  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
-    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
-    gas.dimensions() == 1   ? half_step_of<1>(gas, block, dt)
-    : gas.dimensions() == 2 ? half_step_of<2>(gas, block, dt)
-                            : half_step_of<3>(gas, block, dt);
-  });
+  for_each_own_block(gas, [&](auto D, std::size_t, std::size_t block) { half_step_of<D()>(gas, block, dt); });
 }
 
 bool lagrangian_phase(Gas& gas, double dt) {
   std::vector<char> good(gas.cells.mine.size());
-  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
-    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
-    good[i] = gas.dimensions() == 1   ? move<1>(gas, block, dt)
-              : gas.dimensions() == 2 ? move<2>(gas, block, dt)
-                                      : move<3>(gas, block, dt);
-  });
+  for_each_own_block(gas, [&](auto D, std::size_t i, std::size_t block) { good[i] = move<D()>(gas, block, dt); });
   return std::all_of(good.begin(), good.end(), [](char g) { return g != 0; });
 }
 

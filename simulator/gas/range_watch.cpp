@@ -84,8 +84,7 @@ std::string in_words(const RangeReport& report, int dimensions) {
   return fmt::format(
       "{} was outside of the densities that its equation of state declares, {} times (cells times steps); farthest: {:.6g} "
       "kg/m^3, {} {:.6g}, at ({:.6g}) m and {:.6g} s. There its pressure is extrapolated: if that place and time matter to "
-      "you, "
-      "take a law that holds there",
+      "you, take a law that holds there",
       report.fluid, o.cell_steps, o.density, above ? "above" : "below", above ? report.range.highest : report.range.lowest,
       fmt::join(std::span(o.place).first(static_cast<std::size_t>(dimensions)), ", "), o.time);
 }

@@ -8,6 +8,7 @@
 #include "simulator/gas/equilibrium.hpp"
 #include "simulator/gas/gas.hpp"
 #include "simulator/gas/ghosts.hpp"
+#include "simulator/gas/own_blocks.hpp"
 #include "simulator/parallel.hpp"
 #include "simulator/solid/shapes.hpp"
 
@@ -26,23 +27,16 @@ enum class Stencil { smooth, difference };
 
 /// One quantity along one axis, from one set to another: the mean of three cells (1, 2, 1)/4, or half the difference of the two
 /// neighbours. Of all own cells.
-template <int D>
-void filter(const Cells& cells, const CellSet& from, CellSet& to, int quantity, int axis, Stencil stencil) {
-  parallel_for_blocks(cells.mine.size(), [&](std::size_t i) {
-    const auto block = static_cast<std::size_t>(cells.mine[i]);
-    for (int n = 0; n < BlockShape<D>::pencils; ++n) {
+void filter(Gas& gas, int quantity, int axis, Stencil stencil) {
+  for_each_own_block(gas, [&](auto D, std::size_t, std::size_t block) {
+    for (int n = 0; n < BlockShape<D()>::pencils; ++n) {
       Pencil q, result;
-      load<D>(cells, from, block, quantity, axis, n, q);
+      load<D()>(gas.cells, gas.filtered, block, quantity, axis, n, q);
       for (std::size_t c = ring; c < ring + line; ++c)
         result[c] = stencil == Stencil::smooth ? 0.25 * (q[c - 1] + q[c + 1]) + 0.5 * q[c] : 0.5 * (q[c + 1] - q[c - 1]);
-      store<D>(to, block, quantity, axis, n, result);
+      store<D()>(gas.filtering, block, quantity, axis, n, result);
     }
   });
-}
-void filter(Gas& gas, int quantity, int axis, Stencil stencil) {
-  gas.dimensions() == 1   ? filter<1>(gas.cells, gas.filtered, gas.filtering, quantity, axis, stencil)
-  : gas.dimensions() == 2 ? filter<2>(gas.cells, gas.filtered, gas.filtering, quantity, axis, stencil)
-                          : filter<3>(gas.cells, gas.filtered, gas.filtering, quantity, axis, stencil);
 }
 
 /// f(block, pack) for the cells of own blocks.

@@ -4,10 +4,11 @@
 #include <vector>
 
 #include "simulator/gas/donor.hpp"
-#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/limiter.hpp"
+#include "simulator/gas/own_blocks.hpp"
 #include "simulator/gas/passages.hpp"
-#include "simulator/parallel.hpp"
+#include "simulator/gas/pressure_equilibrium.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -262,7 +263,7 @@ template <int D>
       load<D>(gas.cells, gas.moved, block, first + Content::volume, axis, n, at.volume);
       load<D>(gas.cells, gas.moved, block, first + Content::internal, axis, n, at.internal);
       for (std::size_t c = 0; c < reach; ++c) {
-        at.present[c] = (at.volume[c] > least_fraction * room[c]) & (at.mass[c] > 0.0);
+        at.present[c] = is_present(at.volume[c], at.mass[c], room[c]);
         at.part[c] = at.volume[c] / room[c];
         const Lanes volume = select(at.present[c], at.volume[c], Lanes(1.0));
         at.density[c] = at.mass[c] / volume, at.energy[c] = at.internal[c] / volume;
@@ -382,12 +383,7 @@ SweepResult sweep_block(Gas& gas, std::size_t block, int axis) {
 
 bool sweep(Gas& gas, int axis) {
   std::vector<SweepResult> results(gas.cells.mine.size());
-  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
-    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
-    results[i] = gas.dimensions() == 1   ? sweep_block<1>(gas, block, axis)
-                 : gas.dimensions() == 2 ? sweep_block<2>(gas, block, axis)
-                                         : sweep_block<3>(gas, block, axis);
-  });
+  for_each_own_block(gas, [&](auto D, std::size_t i, std::size_t block) { results[i] = sweep_block<D()>(gas, block, axis); });
   bool good = true;
   for (const SweepResult& r : results) gas.flattened += r.flattened, good = good && r.good;
   return good;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "simulator/gas/acoustic.hpp"
-#include "simulator/parallel.hpp"
+#include "simulator/gas/own_blocks.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -63,12 +63,8 @@ Rates rates_of(const Gas& gas, std::size_t block, double body_speed) {
 double step_after_jumps(Gas& gas, double courant) {
   const double body_speed = gas.bodies.empty() ? 0.0 : fastest(gas);
   std::vector<Rates> of_block(gas.cells.mine.size());
-  parallel_for_blocks(of_block.size(), [&](std::size_t i) {
-    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
-    of_block[i] = gas.dimensions() == 1   ? rates_of<1>(gas, block, body_speed)
-                  : gas.dimensions() == 2 ? rates_of<2>(gas, block, body_speed)
-                                          : rates_of<3>(gas, block, body_speed);
-  });
+  for_each_own_block(gas,
+                     [&](auto D, std::size_t i, std::size_t block) { of_block[i] = rates_of<D()>(gas, block, body_speed); });
   const Rates now = {gas.wave_rate, gas.motion_rate};
   for (const Rates& rates : of_block)
     gas.wave_rate = std::max(gas.wave_rate, rates.wave), gas.motion_rate = std::max(gas.motion_rate, rates.motion);

@@ -4,8 +4,8 @@
 
 #include "models/equation_of_state/thermodynamics.hpp"
 #include "simulator/gas/exchange.hpp"
+#include "simulator/gas/own_blocks.hpp"
 #include "simulator/gas/passages.hpp"
-#include "simulator/parallel.hpp"
 
 namespace brisance::simulator::gas {
 namespace {
@@ -281,12 +281,7 @@ void prepare_transport(Gas& gas, Domain& domain) {
     gas.transport.resize(gas.cells.blocks.size());
   }
   std::vector<double> rates(gas.cells.mine.size());
-  parallel_for_blocks(rates.size(), [&](std::size_t i) {
-    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
-    rates[i] = gas.dimensions() == 1   ? prepare<1>(gas, block)
-               : gas.dimensions() == 2 ? prepare<2>(gas, block)
-                                       : prepare<3>(gas, block);
-  });
+  for_each_own_block(gas, [&](auto D, std::size_t i, std::size_t block) { rates[i] = prepare<D()>(gas, block); });
   gas.diffusion_rate = 0.0;
   for (const double rate : rates) gas.diffusion_rate = std::max(gas.diffusion_rate, rate);
   gas.diffusion_rate = domain.maximum(gas.diffusion_rate);
@@ -309,12 +304,7 @@ void warm_alike(const Gas& gas, CellSet& set, std::size_t block, int k, const La
 
 void apply_transport(Gas& gas, double dt) {
   if (!has_transport(gas) && (gas.heat_exchange == 0.0 || gas.fluids.size() == 1)) return;
-  parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
-    const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
-    gas.dimensions() == 1   ? apply<1>(gas, block, dt)
-    : gas.dimensions() == 2 ? apply<2>(gas, block, dt)
-                            : apply<3>(gas, block, dt);
-  });
+  for_each_own_block(gas, [&](auto D, std::size_t, std::size_t block) { apply<D()>(gas, block, dt); });
 }
 
 }  // namespace brisance::simulator::gas

@@ -149,22 +149,33 @@ void activate(Grid& grid, std::span<const BlockKey> with_particles, const Partit
   grid.motion.resize(grid.blocks.size() * fields * 64);
 }
 
-void gather_tiles(Grid& grid, Domain& domain) {
-  if (domain.size() == 1) return;
-  const std::size_t length = static_cast<std::size_t>(grid.fields * grid.tile_nodes());
-  std::vector<Message> messages(static_cast<std::size_t>(domain.size()));
+namespace {
+
+/// Hands on what belongs to blocks: to each rank those that `to_send` tells, by their numbers among `keys`. `values(n)`: where
+/// the `length` numbers of the block number n begin.
+template <class Values>
+void exchange_blocks(Domain& domain, const std::vector<std::vector<std::int32_t>>& to_send, const std::vector<BlockKey>& keys,
+                     std::size_t length, const Values& values) {
+  std::vector<Message> messages(to_send.size());
   for (std::size_t r = 0; r < messages.size(); ++r)
-    for (const std::int32_t t : grid.tiles_to_send[r]) {
-      append(messages[r], grid.tile_block[static_cast<std::size_t>(t)]);
-      append(messages[r], grid.tile(static_cast<std::size_t>(t), 0), length);
+    for (const std::int32_t n : to_send[r]) {
+      append(messages[r], keys[static_cast<std::size_t>(n)]);
+      append(messages[r], values(static_cast<std::size_t>(n)), length);
     }
   const std::vector<Message> received = domain.exchange(std::move(messages));
   for (const Message& message : received)
     for (MessageReader reader(message); !reader.at_end();) {
-      const auto key = reader.read<BlockKey>();
-      const auto t = std::lower_bound(grid.tile_block.begin(), grid.tile_block.end(), key) - grid.tile_block.begin();
-      reader.read(grid.tile(static_cast<std::size_t>(t), 0), length);
+      const auto at = std::lower_bound(keys.begin(), keys.end(), reader.read<BlockKey>());
+      reader.read(values(static_cast<std::size_t>(at - keys.begin())), length);
     }
+}
+
+}  // namespace
+
+void gather_tiles(Grid& grid, Domain& domain) {
+  if (domain.size() == 1) return;
+  const auto length = static_cast<std::size_t>(grid.fields * grid.tile_nodes());
+  exchange_blocks(domain, grid.tiles_to_send, grid.tile_block, length, [&](std::size_t t) { return grid.tile(t, 0); });
 }
 
 void sum_tiles(Grid& grid) {
@@ -174,19 +185,7 @@ void sum_tiles(Grid& grid) {
 void broadcast_motion(Grid& grid, Domain& domain) {
   if (domain.size() == 1) return;
   const std::size_t length = static_cast<std::size_t>(grid.fields) * 64;
-  std::vector<Message> messages(static_cast<std::size_t>(domain.size()));
-  for (std::size_t r = 0; r < messages.size(); ++r)
-    for (const std::int32_t b : grid.blocks_to_send[r]) {
-      append(messages[r], grid.blocks[static_cast<std::size_t>(b)]);
-      append(messages[r], grid.block_motion(static_cast<std::size_t>(b), 0), length);
-    }
-  const std::vector<Message> received = domain.exchange(std::move(messages));
-  for (const Message& message : received)
-    for (MessageReader reader(message); !reader.at_end();) {
-      const auto key = reader.read<BlockKey>();
-      const auto b = std::lower_bound(grid.blocks.begin(), grid.blocks.end(), key) - grid.blocks.begin();
-      reader.read(grid.block_motion(static_cast<std::size_t>(b), 0), length);
-    }
+  exchange_blocks(domain, grid.blocks_to_send, grid.blocks, length, [&](std::size_t b) { return grid.block_motion(b, 0); });
 }
 
 void load_tile(const Grid& grid, std::size_t tile, int field, Lanes* nodes) {

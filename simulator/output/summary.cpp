@@ -85,8 +85,7 @@ std::string gas_in_words(const Books& all, double cells_times_steps) {
   if (books.capped > 0)
     text += fmt::format(
         "  caution: {} times a cell was not let burn as fast as its law says, for a fifth of a cell may burn in a step at "
-        "most; "
-        "where that delays the front, take a smaller gas.courant\n",
+        "most; where that delays the front, take a smaller gas.courant\n",
         books.capped);
   row("in no book", books.residual());
   text += caution_in_words(books, cells_times_steps);

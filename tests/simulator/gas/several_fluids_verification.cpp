@@ -17,8 +17,9 @@
 #include <vector>
 
 #include "models/equation_of_state/thermodynamics.hpp"
-#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/lagrangian.hpp"
+#include "simulator/gas/pressure_equilibrium.hpp"
 #include "tests/simulator/gas/exact_riemann.hpp"
 #include "tests/simulator/gas/fluids.hpp"
 #include "tests/simulator/gas/set_up.hpp"
@@ -247,7 +248,7 @@ TEST(Equilibrium, IsFoundForAnyFluidsAndIsThatOfBisection) {
   for (int pack = 0; pack < packs; ++pack) {
     const int n = 2 + pack % 2;
     std::vector<Fluid> fluids;
-    std::vector<FluidShare<Lanes>> shares(static_cast<std::size_t>(n));
+    std::vector<FluidShare> shares(static_cast<std::size_t>(n));
     for (int r = 0; r < n; ++r) fluids.push_back(all[random() % all.size()]);
     Lanes room;
     for (int l = 0; l < 8; ++l) {
@@ -267,7 +268,7 @@ TEST(Equilibrium, IsFoundForAnyFluidsAndIsThatOfBisection) {
             shares[i].internal.set(l, density * volume * energy);
       }
     }
-    std::vector<FluidShare<Lanes>> relaxed = shares;
+    std::vector<FluidShare> relaxed = shares;
     const Lanes pressure = equilibrate(fluids, shares, room, &count);
     for (int l = 0; l < 8; ++l) {
       double volume = 0.0, stiffest = 0.0;
@@ -322,7 +323,7 @@ TEST(Equilibrium, PressesAirTogetherAlongItsIsentrope) {
       for (Fluid& f : fluids) give_usual_state(f);
       const double energies[2] = {energy_of(air.equation_of_state, 1.2, start),
                                   energy_of(dense.equation_of_state, density, pressure)};
-      std::vector<FluidShare<Lanes>> shares(2);
+      std::vector<FluidShare> shares(2);
       shares[0].mass = Lanes(1.2 * part), shares[0].volume = Lanes(part);
       shares[1].mass = Lanes(density * (1.0 - part)), shares[1].volume = Lanes(1.0 - part);
       for (std::size_t r = 0; r < 2; ++r) shares[r].internal = shares[r].mass * energies[r];
@@ -344,7 +345,7 @@ TEST(Equilibrium, SeesTheFluidThatIsCrushedWhateverWaterHas) {
   for (const double of_water : {1.1e5, 0.9e5, -1e6}) {
     std::vector<Fluid> fluids = {air, water, products};
     for (Fluid& f : fluids) give_usual_state(f);
-    std::vector<FluidShare<Lanes>> shares(3);
+    std::vector<FluidShare> shares(3);
     double before = 0.0, after = 0.0;
     const auto put = [&](std::size_t r, double density, double pressure, double part) {
       shares[r].mass = Lanes(density * part), shares[r].volume = Lanes(part);
@@ -365,7 +366,7 @@ TEST(Equilibrium, SeesTheFluidThatIsCrushedWhateverWaterHas) {
 TEST(Equilibrium, WarmsByMassWhatIsLeftOfTheWork) {
   std::vector<Fluid> fluids = {air, air};
   for (Fluid& f : fluids) give_usual_state(f);
-  std::vector<FluidShare<Lanes>> shares(2);
+  std::vector<FluidShare> shares(2);
   shares[0].mass = Lanes(1.0), shares[0].volume = Lanes(0.9), shares[0].internal = Lanes(1e4);
   shares[1].mass = Lanes(1.0), shares[1].volume = Lanes(0.1), shares[1].internal = Lanes(1e6);
   double volume = 0.9, low = 1e4, high = 1e6;

@@ -10,6 +10,8 @@
 #include "simulator/case_reader.hpp"
 #include "simulator/gas/donor.hpp"
 #include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
+#include "simulator/gas/pressure_equilibrium.hpp"
 #include "simulator/setup.hpp"
 #include "simulator/step_size.hpp"
 #include "simulator/time_step.hpp"
@@ -139,7 +141,7 @@ TEST(Equilibrium, IsFoundBesideATraceThatAnyPressureSuits) {
   std::vector<Fluid> fluids = {water, air, products};
   for (Fluid& f : fluids) give_usual_state(f);
   constexpr double room = 2.2e-7;  // m^3
-  std::vector<FluidShare<Lanes>> shares(3);
+  std::vector<FluidShare> shares(3);
   shares[0].mass = Lanes(2.1895426811955353e-4), shares[0].volume = Lanes(2.1990439061559027e-7);
   shares[0].internal = Lanes(170.9615920946205);
   shares[1].mass = Lanes(6.331586142202213e-22), shares[1].volume = Lanes(9.3493563931545112e-11);
@@ -167,7 +169,7 @@ TEST(Equilibrium, IsFoundForManyFluids) {
   constexpr int count = 20;
   std::vector<Fluid> fluids(count, air);
   for (Fluid& f : fluids) give_usual_state(f);
-  std::vector<FluidShare<Lanes>> shares(count);
+  std::vector<FluidShare> shares(count);
   for (int r = 0; r < count; ++r) {
     auto& s = shares[static_cast<std::size_t>(r)];
     s.mass = Lanes(1.0 + r), s.volume = Lanes(1.0 / count), s.internal = Lanes(1e5 * (1.0 + r));
@@ -181,7 +183,7 @@ TEST(Equilibrium, IsFoundForManyFluids) {
 TEST(Equilibrium, LeavesAFluidAloneThatHasVolumeButNoMass) {
   std::vector<Fluid> fluids = {water, air};
   for (Fluid& f : fluids) give_usual_state(f);
-  std::vector<FluidShare<Lanes>> shares(2);
+  std::vector<FluidShare> shares(2);
   const double energy = energy_of(water.equation_of_state, 1000.0, 1e7);
   shares[0].mass = Lanes(999.0), shares[0].volume = Lanes(0.999), shares[0].internal = Lanes(999.0 * energy);
   shares[1].mass = Lanes(0.0), shares[1].volume = Lanes(0.001), shares[1].internal = Lanes(5.0);
