@@ -124,7 +124,6 @@ class Run {
     const bool past_end = s_.time > end_ && !at(end_);
     if (past_end || (at(end_) && told && !had_failed)) return nothing_left();
     keep_later_end();
-    log_.set_wall_time_before(restored.progress.wall_time);
     log_.line(fmt::format("goes on from {}, step {}, time {:.6g} s", restored.file.string(), s_.step, s_.time));
     if (had_failed && told->message.starts_with("gate ")) log_.line(fmt::format("{}{} s", again, told->time));
     gate_time_ = gate_time_in(options_.directory);
