@@ -14,6 +14,7 @@
 #include "models/programs/files.hpp"
 #include "models/programs/progress.hpp"
 #include "simulator/gas/foreseen_meetings.hpp"
+#include "simulator/gas/rejection.hpp"
 #include "simulator/gates.hpp"
 #include "simulator/output/checkpoint.hpp"
 #include "simulator/output/figures.hpp"
@@ -73,10 +74,7 @@ std::string clock_text(double seconds) {
 
 /// Why a step was too large.
 std::string why_rejected(const Simulation& s, double dt) {
-  const std::string emptied = "more volume or energy would leave a cell of gas than it has";
-  if (s.gas.implicit) return "the iteration for the pressures did not come to its end, or " + emptied;
-  if (!s.bodies.empty()) return worst_point(s, dt);
-  return s.gas.bodies.empty() ? emptied : emptied + ", or gas would get from one side of a thin body to the other";
+  return s.gas.empty() ? worst_point(s, dt) : gas::why_rejected(s.gas);
 }
 
 /// What a run writes, and when.
@@ -343,6 +341,7 @@ class Run {
     summary.particle_steps_per_second = static_cast<double>((s_.step - first_step_) * count_points(s_)) / seconds;
     summary.books = books_of(s_);
     summary.measures = measures_.read(s_), summary.not_gated = not_gated(case_.gates, s_);
+    if (!s_.gas.empty()) summary.hottest = gas::hottest(s_.gas);
     summary.other_experiment = other_experiment(case_), summary.failed = failed_particles(s_);
     if (history_) summary.peaks = peaks_of(read_gauges(case_, options_.directory));
   }
@@ -430,6 +429,7 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   gates_passed(directory),
                   other_experiment(c),
                   failed_particles(s)};
+  if (!s.gas.empty()) summary.hottest = gas::hottest(s.gas);
   for (auto& found :
        {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory, of)})
     troubles.insert(troubles.end(), found.begin(), found.end());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/gas/hottest.hpp"
 #include "simulator/output/gauge_history.hpp"
 #include "simulator/output/history.hpp"
 #include "simulator/output/measures.hpp"
@@ -34,6 +35,7 @@ struct Summary {
   std::vector<std::string> resumed_after{};     // gates that had ended it before
   std::vector<std::string> other_experiment{};  // what --set has changed of the one that its measures are compared with
   std::vector<FailedParticles> failed{};
+  std::optional<gas::Hottest> hottest{};  // of gas
 };
 
 /// How a run came to its end, as the summary that it wrote tells it; nothing if there is none.
