@@ -277,11 +277,12 @@ class Run {
   }
 
   void add_snapshot() {
-    snapshot_times_.push_back(s_.time);
-    write_snapshot(options_.directory, s_, snapshot_times_);
-    if (case_.output.grid && !s_.bodies.empty())
-      write_grid_snapshot(options_.directory, solid_grid, solid_image(s_), snapshot_times_);
-    if (!s_.gas.empty()) write_grid_snapshot(options_.directory, gas_grid, gas_image(s_), snapshot_times_);
+    std::vector<double> times = snapshot_times_;
+    times.push_back(s_.time);
+    write_snapshot(options_.directory, s_, times);
+    if (case_.output.grid && !s_.bodies.empty()) write_grid_snapshot(options_.directory, solid_grid, solid_image(s_), times);
+    if (!s_.gas.empty()) write_grid_snapshot(options_.directory, gas_grid, gas_image(s_), times);
+    snapshot_times_ = std::move(times);  // what could not be written is none
   }
 
   bool checkpoint_is_due(double before) const {
