@@ -344,6 +344,7 @@ class Run {
     summary.measures = measures_.read(s_), summary.not_gated = not_gated(case_.gates, s_);
     if (!s_.gas.empty()) summary.hottest = gas::hottest(s_.gas);
     summary.other_experiment = other_experiment(case_), summary.failed = failed_particles(s_);
+    summary.in_contact = in_contact(s_);
     if (history_) summary.peaks = peaks_of(read_gauges(case_, options_.directory));
   }
 
@@ -431,6 +432,7 @@ Summary report(const Case& c, Simulation& s, const Path& directory) {
                   other_experiment(c),
                   failed_particles(s)};
   if (!s.gas.empty()) summary.hottest = gas::hottest(s.gas);
+  summary.in_contact = in_contact(s);
   for (auto& found :
        {damaged_snapshots(directory, c, restored.progress.snapshot_times.size()), draw_figures(c, s, directory, of)})
     troubles.insert(troubles.end(), found.begin(), found.end());

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <set>
 #include <span>
 
 #include "models/programs/files.hpp"
@@ -153,6 +154,31 @@ std::vector<FailedParticles> failed_particles(const Simulation& s) {
   return bodies;
 }
 
+std::vector<std::array<std::string, 2>> in_contact(const Simulation& s) {
+  using Cell = std::array<int, 3>;
+  std::vector<std::set<Cell>> cells(s.bodies.size());  // that hold particles of each body
+  for (std::size_t b = 0; b < s.bodies.size() && s.bodies.size() > 1; ++b)
+    for (int p = 0; p < s.bodies[b].particles.size; ++p) {
+      const Vector x = (1.0 / s.grid.cell_size) * (ParticleView(s.bodies[b].particles, p).position() - s.grid.origin);
+      Cell cell{};
+      for (std::size_t a = 0; a < static_cast<std::size_t>(s.dimensions()); ++a) cell[a] = static_cast<int>(std::floor(x[a]));
+      cells[b].insert(cell);
+    }
+  const auto beside = [](const std::set<Cell>& all, const Cell& cell) {
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k)
+          if (all.contains({cell[0] + i, cell[1] + j, cell[2] + k})) return true;
+    return false;
+  };
+  std::vector<std::array<std::string, 2>> pairs;
+  for (std::size_t a = 0; a < cells.size(); ++a)
+    for (std::size_t b = a + 1; b < cells.size(); ++b)
+      if (std::any_of(cells[a].begin(), cells[a].end(), [&](const Cell& cell) { return beside(cells[b], cell); }))
+        pairs.push_back({s.bodies[a].name, s.bodies[b].name});
+  return pairs;
+}
+
 void write_summary(const Summary& s, const std::filesystem::path& path) {
   Json gauges = Json::object(), measures = Json::object(), comparison = Json::object(), energy = Json::object(),
        units = Json::object(), versions = Json::object();
@@ -198,6 +224,11 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
     for (const gas::RangeReport& report : s.books.gas->outside) outside.set(report.fluid, json_of(report));
     all.set("outside_declared_densities", outside).set("not_gated", s.not_gated);
   }
+  if (!s.in_contact.empty()) {
+    Json pairs = Json::list();
+    for (const auto& [a, b] : s.in_contact) pairs.append(Json::list().append(a).append(b));
+    all.set("in_contact", pairs);
+  }
   if (s.hottest) {
     all.set("hottest_cell", json_of(s.hottest->of_all));
     if (s.hottest->of_one_fluid) all.set("hottest_cell_of_one_fluid", json_of(*s.hottest->of_one_fluid));
@@ -230,6 +261,8 @@ std::string in_words(const Summary& s) {
   for (const std::string& gate : s.resumed_after) text += fmt::format("  caution: resumed after {}\n", gate);
   for (const FailedParticles& f : s.failed)
     text += fmt::format("  failed: {} of {} particles of {}\n", f.failed, f.all, f.body);
+  for (const auto& [a, b] : s.in_contact)
+    text += fmt::format("  in contact: {} and {}; bodies that have met stick together, where real ones may fly off\n", a, b);
   if (!s.measures.empty())
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", "measure", "computed", "measured", "deviation");
   for (const MeasuredValue& m : s.measures) {

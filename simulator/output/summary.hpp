@@ -1,6 +1,7 @@
 #pragma once
 // summary.json and the same for people to read.
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,6 +22,9 @@ struct FailedParticles {
 /// Of the bodies that have any.
 std::vector<FailedParticles> failed_particles(const Simulation& s);
 
+/// Pairs of solids that have particles in one cell or in neighbouring ones: they move each other.
+std::vector<std::array<std::string, 2>> in_contact(const Simulation& s);
+
 struct Summary {
   std::string title, subtitle, ending, message;
   double time = 0.0;                      // s
@@ -35,7 +39,8 @@ struct Summary {
   std::vector<std::string> resumed_after{};     // gates that had ended it before
   std::vector<std::string> other_experiment{};  // what --set has changed of the one that its measures are compared with
   std::vector<FailedParticles> failed{};
-  std::optional<gas::Hottest> hottest{};  // of gas
+  std::vector<std::array<std::string, 2>> in_contact{};  // solids
+  std::optional<gas::Hottest> hottest{};                 // of gas
 };
 
 /// How a run came to its end, as the summary that it wrote tells it; nothing if there is none.
