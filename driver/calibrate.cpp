@@ -12,7 +12,6 @@
 // NLopt's algorithms would see one number. The same Jacobian then gives the confidence intervals.
 #include <ceres/ceres.h>
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -584,10 +583,7 @@ int run_calibration(const CalibrateOptions& options) {
   const Fit fit = calibrate(calibration);
   print_report(calibration, fit);
   if (!options.output.empty()) {
-    replace_file(options.output, [&](const std::filesystem::path& temporary) {
-      auto out = fmt::output_file(temporary.string());
-      out.print("{}", write_material(fit.file));
-    });
+    replace_file_by_text(options.output, write_material(fit.file));
     fmt::print("material: {}\n", options.output.string());
   }
   std::string figures;

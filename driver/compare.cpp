@@ -1,7 +1,6 @@
 #include "driver/compare.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <algorithm>
 #include <chrono>
@@ -187,45 +186,41 @@ std::filesystem::path points_path(const std::filesystem::path& path) {
 }
 
 void write_results(const Comparison& comparison, const Results& results, const std::filesystem::path& path) {
-  replace_file(path, [&](const std::filesystem::path& temporary) {
-    auto out = fmt::output_file(temporary.string());
-    out.print("test,author,temperature [K],strain_rate [1/s],pressure [Pa],points");
-    for (const Model& model : comparison.models)
-      out.print(",{0}: rms [Pa],{0}: normalised_rms,{0}: relative_rms,{0}: relative_mean,{0}: note", model.name);
-    out.print("\n");
-    for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
-      const Test& test = comparison.tests[t];
-      out.print("{},{},{},{},{},{}", test.name, test.author, test.temperature, test.strain_rate, test.pressure,
-                results.front()[t].points.size());
-      for (const auto& model : results) {
-        const Errors e = errors_of(model[t].points);
-        if (e.points > 0)
-          out.print(",{},{},{},{},\"{}\"", e.rms, e.normalised_rms, e.relative_rms, e.relative_mean, model[t].note);
+  std::string text = "test,author,temperature [K],strain_rate [1/s],pressure [Pa],points";
+  for (const Model& model : comparison.models)
+    text += fmt::format(",{0}: rms [Pa],{0}: normalised_rms,{0}: relative_rms,{0}: relative_mean,{0}: note", model.name);
+  text += "\n";
+  for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
+    const Test& test = comparison.tests[t];
+    text += fmt::format("{},{},{},{},{},{}", test.name, test.author, test.temperature, test.strain_rate, test.pressure,
+                        results.front()[t].points.size());
+    for (const auto& model : results) {
+      const Errors e = errors_of(model[t].points);
+      if (e.points > 0)
+        text += fmt::format(",{},{},{},{},\"{}\"", e.rms, e.normalised_rms, e.relative_rms, e.relative_mean, model[t].note);
+      else
+        text += fmt::format(",,,,,\"{}\"", model[t].note);
+    }
+    text += "\n";
+  }
+  replace_file_by_text(path, text);
+  std::string points = "test,plastic_strain,measured [Pa],counts";
+  for (const Model& model : comparison.models) points += fmt::format(",{} [Pa]", model.name);
+  points += "\n";
+  for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
+    const Test& test = comparison.tests[t];
+    for (std::size_t i = 0; i < test.stress.size(); ++i) {
+      points += fmt::format("{},{},{},{}", test.name, test.plastic_strain[i], test.stress[i],
+                            counts(test, i, comparison.protocol) ? 1 : 0);
+      for (const auto& model : results)
+        if (!model[t].stress.empty())
+          points += fmt::format(",{}", interpolate(model[t].plastic_strain, model[t].stress, test.plastic_strain[i]));
         else
-          out.print(",,,,,\"{}\"", model[t].note);
-      }
-      out.print("\n");
+          points += ",";
+      points += "\n";
     }
-  });
-  replace_file(points_path(path), [&](const std::filesystem::path& temporary) {
-    auto out = fmt::output_file(temporary.string());
-    out.print("test,plastic_strain,measured [Pa],counts");
-    for (const Model& model : comparison.models) out.print(",{} [Pa]", model.name);
-    out.print("\n");
-    for (std::size_t t = 0; t < comparison.tests.size(); ++t) {
-      const Test& test = comparison.tests[t];
-      for (std::size_t i = 0; i < test.stress.size(); ++i) {
-        out.print("{},{},{},{}", test.name, test.plastic_strain[i], test.stress[i],
-                  counts(test, i, comparison.protocol) ? 1 : 0);
-        for (const auto& model : results)
-          if (!model[t].stress.empty())
-            out.print(",{}", interpolate(model[t].plastic_strain, model[t].stress, test.plastic_strain[i]));
-          else
-            out.print(",");
-        out.print("\n");
-      }
-    }
-  });
+  }
+  replace_file_by_text(points_path(path), points);
 }
 
 /// Tests for a panel of the figure: those with the most points among equal conditions, so that curves can be told apart.

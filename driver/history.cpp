@@ -1,7 +1,6 @@
 #include "driver/history.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -150,16 +149,16 @@ void History::drop_every_other() {
 }
 
 void write_csv(const Record& record, const std::filesystem::path& path) {
-  replace_file(path, [&](const std::filesystem::path& temporary) {
-    auto out = fmt::output_file(temporary.string());
+  std::string text;
+  for (std::size_t i = 0; i < record.series.size(); ++i)
+    text += fmt::format("{}{} [{}]", i ? "," : "", record.series[i].name, record.series[i].unit);
+  text += "\n";
+  for (std::size_t row = 0; row < record.rows(); ++row) {
     for (std::size_t i = 0; i < record.series.size(); ++i)
-      out.print("{}{} [{}]", i ? "," : "", record.series[i].name, record.series[i].unit);
-    out.print("\n");
-    for (std::size_t row = 0; row < record.rows(); ++row) {
-      for (std::size_t i = 0; i < record.series.size(); ++i) out.print("{}{}", i ? "," : "", record.series[i].values[row]);
-      out.print("\n");
-    }
-  });
+      text += fmt::format("{}{}", i ? "," : "", record.series[i].values[row]);
+    text += "\n";
+  }
+  replace_file_by_text(path, text);
 }
 
 void write(const Record& record, const std::filesystem::path& path) {

@@ -1,7 +1,6 @@
 #include "driver/sweep.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -79,38 +78,36 @@ std::optional<Unit> unit_of(const std::string& key, const Material& material) {
   return unit;
 }
 
-void print_values(fmt::ostream& out, const SweptValues& values) {
-  for (const SweptValue& v : values) out.print(",{}", v.number ? shortest_text(*v.number) : v.text);
+void print_values(std::string& text, const SweptValues& values) {
+  for (const SweptValue& v : values) text += ',' + (v.number ? shortest_text(*v.number) : v.text);
 }
 
 /// A table of the rows of members from `first_row` on: number and values of the member, then its columns.
 template <class FirstRow>
 void write_table(std::span<const SweepMember> members, const std::filesystem::path& path, FirstRow&& first_row) {
-  replace_file(path, [&](const std::filesystem::path& temporary) {
-    auto out = fmt::output_file(temporary.string());
-    out.print("member");
-    for (const SweptValue& v : members.front().values) out.print(",{}", v.column());
-    // Members of different materials may have different columns; the table has those of all.
-    std::vector<Record::Series> columns;
-    for (const SweepMember& member : members)
-      for (const Record::Series& s : member.record.series)
-        if (std::none_of(columns.begin(), columns.end(), [&](const auto& c) { return c.name == s.name; }))
-          columns.push_back({s.name, s.unit, {}});
-    for (const Record::Series& c : columns) out.print(",{} [{}]", c.name, c.unit);
-    out.print("\n");
-    for (std::size_t m = 0; m < members.size(); ++m) {
-      const Record& record = members[m].record;
-      for (std::size_t row = first_row(record); row < record.rows(); ++row) {
-        out.print("{}", m + 1);
-        print_values(out, members[m].values);
-        for (const Record::Series& c : columns) {
-          const Record::Series* own = record.find(c.name);
-          out.print(",{}", own ? own->values[row] : std::numeric_limits<double>::quiet_NaN());
-        }
-        out.print("\n");
+  std::string text = "member";
+  for (const SweptValue& v : members.front().values) text += fmt::format(",{}", v.column());
+  // Members of different materials may have different columns; the table has those of all.
+  std::vector<Record::Series> columns;
+  for (const SweepMember& member : members)
+    for (const Record::Series& s : member.record.series)
+      if (std::none_of(columns.begin(), columns.end(), [&](const auto& c) { return c.name == s.name; }))
+        columns.push_back({s.name, s.unit, {}});
+  for (const Record::Series& c : columns) text += fmt::format(",{} [{}]", c.name, c.unit);
+  text += "\n";
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const Record& record = members[m].record;
+    for (std::size_t row = first_row(record); row < record.rows(); ++row) {
+      text += fmt::format("{}", m + 1);
+      print_values(text, members[m].values);
+      for (const Record::Series& c : columns) {
+        const Record::Series* own = record.find(c.name);
+        text += fmt::format(",{}", own ? own->values[row] : std::numeric_limits<double>::quiet_NaN());
       }
+      text += "\n";
     }
-  });
+  }
+  replace_file_by_text(path, text);
 }
 
 bool is_hdf5(const std::filesystem::path& path) {

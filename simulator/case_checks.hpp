@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,17 @@ void require_own_name(TableReader& in, const Config& config, const std::vector<C
   const bool taken = std::any_of(others.begin(), others.end(), [&](const Config& other) { return other.name == config.name; });
   if (taken && !config.name.empty())
     in.problem("name", "the name " + in_quotes(config.name) + " is given twice; give each its own");
+}
+
+/// Words that must be among some. These are told once, with the first word that is not.
+inline void require_words(TableReader& in, std::string_view key, std::span<const std::string> words,
+                          std::span<const std::string_view> allowed, std::string_view what_if_not) {
+  std::string told = "; it must be one of " + listed(allowed);
+  for (const std::string& word : words) {
+    if (word.empty() || std::find(allowed.begin(), allowed.end(), word) != allowed.end()) continue;
+    in.problem(key, fmt::format("{} {}{}{}", in_quotes(word), what_if_not, told, did_you_mean(word, allowed)));
+    told.clear();
+  }
 }
 
 /// Names that become part of the names of files.

@@ -358,7 +358,8 @@ class CaseReader : public KeyReader<CaseReader> {
       if (!(width > 0.0)) return in.problem("shape", "it fills nothing: its parts do not meet");
       const double spacing = case_.cell_size / (body.particles_per_direction * samples_per_direction);
       if (k == 0 && spacing > 0.0 && !may_fill(*body.shape, case_.dimensions(), extent, spacing))
-        return in.problem("shape", "it fills nothing: what is taken away leaves no part that could hold a particle");
+        return in.problem("shape", fmt::format("it fills nothing: it leaves no part that could hold a particle of cells of {}",
+                                               in_metres(case_.cell_size)));
       if (width < case_.cell_size * (1.0 - round_off))
         return in.problem("shape", fmt::format("along {} it is {} wide, less than one cell of {}", axis_names[k],
                                                in_metres(width), in_metres(case_.cell_size)));
@@ -436,10 +437,7 @@ class CaseReader : public KeyReader<CaseReader> {
       if (in.has("figure_field")) gas::check_fields(in, {field}, case_, "figure_field");
       return;
     }
-    const std::vector<std::string_view> scalars = scalar_fields();
-    if (std::find(scalars.begin(), scalars.end(), field) == scalars.end())
-      in.problem("figure_field",
-                 in_quotes(field) + " cannot be drawn; it must be one of " + listed(scalars) + did_you_mean(field, scalars));
+    require_words(in, "figure_field", std::span(&field, 1), scalar_fields(), "cannot be drawn");
   }
 
   /// A plane with a velocity that the grid cannot follow stays where its nodes are, so what it moves must stay near.
@@ -500,10 +498,7 @@ class CaseReader : public KeyReader<CaseReader> {
     if (case_.gas) return gas::check_gauge(in, gauge, case_);
     const bool kind_known = in.sound({"kind"}), places_known = geometry_known(in) && in.sound({"from", "to"});
     if (kind_known && places_known && in.sound({"axis"})) check_place(in, gauge);
-    for (const std::string& field : gauge.fields)
-      if (!field.empty() && std::find(gauge_fields.begin(), gauge_fields.end(), field) == gauge_fields.end())
-        in.problem("fields", in_quotes(field) + " cannot be recorded; it must be one of " + listed(gauge_fields) +
-                                 did_you_mean(field, gauge_fields));
+    require_words(in, "fields", gauge.fields, gauge_fields, "cannot be recorded");
     if (!kind_known || !places_known) return;
     if (gauge.kind == GaugeKind::plane)
       for (std::size_t k = 0; k < dimensions(); ++k)
@@ -645,10 +640,7 @@ class CaseReader : public KeyReader<CaseReader> {
     if (!figure.body.empty() && !case_.gas) require_body(in, figure.body);
     if (case_.gas) gas::check_fields(in, figure.fields, case_), gas::check_in_box(in, figure.from, figure.to, case_);
     const std::span drawable = std::span(gauge_fields).subspan(1);  // all but the position
-    for (const std::string& field : figure.fields)
-      if (!case_.gas && !field.empty() && std::find(drawable.begin(), drawable.end(), field) == drawable.end())
-        in.problem("fields", in_quotes(field) + " cannot be drawn; it must be one of " + listed(drawable) +
-                                 did_you_mean(field, drawable));
+    if (!case_.gas) require_words(in, "fields", figure.fields, drawable, "cannot be drawn");
     if (figure.fields.empty() && in.sound({"fields"}))
       in.problem("fields", "there is nothing to draw; give one or more of " + listed(drawable));
     if (in.sound({"from", "to"}) && figure.from == figure.to) in.problem("to", "it is where `from` is; a line has a length");

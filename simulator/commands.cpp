@@ -145,6 +145,7 @@ int check_case(const Options& o) {
   const DryRun dry = dry_run(c, s);
   fmt::print("{}\n{}", c.title, c.below_title().empty() ? "" : "  " + c.below_title() + '\n');
   const std::string_view point = name_of_points(s);
+  fmt::print("  {:24} {:.9g} m\n", "cell size", c.cell_size);
   for (const DryRun::Points& p : dry.points) fmt::print("  {:24} {} {}\n", p.name, p.count, p.kind);
   for (const gas::FillReport& fill : dry.fills) fmt::print("  {:24} {}\n", fill.name, fill.words);
   fmt::print("  {:24} {:.1f} MB\n  {:24} {:.4g} s, limited by {}\n", "memory", dry.megabytes, "time step", dry.first_step,

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "simulator/gas/rejection.hpp"
 #include "simulator/gas/step_estimate.hpp"
 #include "simulator/run.hpp"
 #include "simulator/set_up_warnings.hpp"
@@ -50,7 +51,10 @@ void try_shorter(Simulation& s, double first, std::vector<std::string>& warnings
   for (double dt = 0.5 * first; dt > shortest * first; dt *= 0.5)
     if (advance(s, dt) == StepOutcome::done) return;
   warnings.push_back(fmt::format("its first step fails, however short: the start is no state to go on from{}",
-                                 s.gas.empty() ? "" : "; a fluid may hold less energy than its density takes when it is cold"));
+                                 s.gas.empty() ? ""
+                                               : "; " + gas::why_rejected(s.gas) +
+                                                     "; a fluid may hold less energy than its density takes when it is "
+                                                     "cold"));
 }
 
 }  // namespace

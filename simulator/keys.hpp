@@ -155,7 +155,8 @@ template <class Config>
 inline constexpr auto gas_state_keys =
     std::tuple{Key<Config, std::string>{"fluid", &Config::fluid, Unit::one, "which fluid it is; the only one if not given"},
                Key<Config, std::optional<Varying>>{"pressure", &Config::pressure, Unit::Pa, "its pressure"},
-               Key<Config, std::optional<Varying>>{"density", &Config::density, Unit::kg_per_m3, "its density, or", positive},
+               Key<Config, std::optional<Varying>>{"density", &Config::density, Unit::kg_per_m3,
+                                                   "its density, or else the temperature", positive},
                Key<Config, std::optional<Varying>>{"temperature", &Config::temperature, Unit::K, "its temperature", positive},
                Key<Config, VaryingVector>{"velocity", &Config::velocity, Unit::m_per_s, "its velocity"}};
 

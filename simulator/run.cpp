@@ -15,6 +15,7 @@
 #include "models/programs/progress.hpp"
 #include "simulator/gas/fill_reports.hpp"
 #include "simulator/gas/foreseen_meetings.hpp"
+#include "simulator/gas/rejection.hpp"
 #include "simulator/gates.hpp"
 #include "simulator/output/checkpoint.hpp"
 #include "simulator/output/figures.hpp"
@@ -74,10 +75,7 @@ std::string clock_text(double seconds) {
 
 /// Why a step was too large.
 std::string why_rejected(const Simulation& s, double dt) {
-  const std::string emptied = "more volume or energy would leave a cell of gas than it has";
-  if (s.gas.implicit) return "the iteration for the pressures did not come to its end, or " + emptied;
-  if (!s.bodies.empty()) return worst_point(s, dt);
-  return s.gas.bodies.empty() ? emptied : emptied + ", or gas would get from one side of a thin body to the other";
+  return s.gas.empty() ? worst_point(s, dt) : gas::why_rejected(s.gas);
 }
 
 /// What a summary tells of the state of a run.
@@ -86,6 +84,8 @@ void tell_state(Summary& summary, const Case& c, const Simulation& s, const Meas
   summary.time = s.time, summary.steps = s.step, summary.particles = count_points(s);
   summary.threads = omp_get_max_threads();
   summary.books = books_of(s), summary.measures = measures.read(s), summary.failed = failed_particles(s);
+  summary.in_contact = in_contact(s);
+  if (!s.gas.empty()) summary.hottest = gas::hottest(s.gas);
   summary.not_gated = not_gated(c.gates, s), summary.resumed_after = gates_passed(directory);
   summary.other_experiment = other_experiment(c);
 }
@@ -138,7 +138,6 @@ class Run {
     const bool past_end = s_.time > end_ && !at(end_);
     if (past_end || (at(end_) && told && !had_failed)) return nothing_left();
     keep_later_end();
-    log_.set_wall_time_before(restored.progress.wall_time);
     log_.line(fmt::format("goes on from {}, step {}, time {:.6g} s", restored.file.string(), s_.step, s_.time));
     if (had_failed && told->message.starts_with("gate ")) log_.line(fmt::format("{}{} s", again, told->time));
     gate_time_ = gate_time_in(options_.directory);
@@ -296,11 +295,12 @@ class Run {
   }
 
   void add_snapshot() {
-    snapshot_times_.push_back(s_.time);
-    write_snapshot(options_.directory, s_, snapshot_times_);
-    if (case_.output.grid && !s_.bodies.empty())
-      write_grid_snapshot(options_.directory, solid_grid, solid_image(s_), snapshot_times_);
-    if (!s_.gas.empty()) write_grid_snapshot(options_.directory, gas_grid, gas_image(s_), snapshot_times_);
+    std::vector<double> times = snapshot_times_;
+    times.push_back(s_.time);
+    write_snapshot(options_.directory, s_, times);
+    if (case_.output.grid && !s_.bodies.empty()) write_grid_snapshot(options_.directory, solid_grid, solid_image(s_), times);
+    if (!s_.gas.empty()) write_grid_snapshot(options_.directory, gas_grid, gas_image(s_), times);
+    snapshot_times_ = std::move(times);  // what could not be written is none
   }
 
   bool checkpoint_is_due(double before) const {

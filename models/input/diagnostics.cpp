@@ -54,13 +54,22 @@ int edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-/// The names that a word is the beginning of, if they are few: "nadal" of "nadal_lepoac".
+/// The first letters of the words of a name: "jwl" of "jones_wilkins_lee".
+std::string initials(std::string_view name) {
+  std::string letters;
+  for (std::size_t i = 0; i < name.size(); ++i)
+    if (name[i] != '_' && (i == 0 || name[i - 1] == '_')) letters += name[i];
+  return lower_case(letters);
+}
+
+/// The names that a word is the beginning of, or the initials, if they are few: "nadal" of "nadal_lepoac".
 std::vector<std::string_view> begun_by(std::string_view word, std::span<const std::string_view> candidates) {
   constexpr std::size_t shortest = 3, most = 3;
   std::vector<std::string_view> found;
   if (word.size() < shortest || word.size() > longest_word) return found;
   for (const std::string_view candidate : candidates)
-    if (lower_case(candidate).starts_with(lower_case(word)) && std::find(found.begin(), found.end(), candidate) == found.end())
+    if ((lower_case(candidate).starts_with(lower_case(word)) || initials(candidate) == lower_case(word)) &&
+        std::find(found.begin(), found.end(), candidate) == found.end())
       found.push_back(candidate);
   if (found.size() > most) found.clear();
   return found;

@@ -36,7 +36,8 @@ class InputError : public std::runtime_error {
 /// enough to be what was meant. Letter case counts less than a letter.
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> candidates);
 
-/// `; did you mean "..."?` with the nearest candidate, or with those that the word is the beginning of; or nothing.
+/// `; did you mean "..."?` with the nearest candidate, or with those that the word is the beginning or the initials of; or
+/// nothing.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> candidates);
 
 /// Text of the user in quotes, shortened and with unprintable bytes replaced, for messages.

@@ -396,6 +396,15 @@ bool is_number_with_unit(std::string_view text) {
   return length > 0 && (unit.empty() || begins_word(static_cast<unsigned char>(unit.front())));
 }
 
+bool is_unit(std::string_view text) {
+  try {
+    static_cast<void>(measure_of(text));
+    return true;
+  } catch (const UnitError&) {
+    return false;
+  }
+}
+
 std::string quantity_of(Unit unit) {
   const NamedQuantity* const known = find_quantity(unit);
   return known ? std::string(known->article_and_name) : "a quantity in " + std::string(unit.text);

@@ -40,6 +40,8 @@ class UnitConversion {
 double to_si(std::string_view text, Unit expected);
 /// Whether a text is written as a number with a unit: a number, then nothing or a word. Others may be formulas.
 bool is_number_with_unit(std::string_view text);
+/// Whether a text is a unit: "GPa", "kg/m^3".
+bool is_unit(std::string_view text);
 
 /// The quantity a unit measures, for messages: "a pressure", or "a quantity in J/(kg K)".
 std::string quantity_of(Unit unit);

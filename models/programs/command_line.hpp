@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "models/input/diagnostics.hpp"
+#include "models/input/units.hpp"
 
 namespace brisance {
 
@@ -32,14 +33,19 @@ inline std::string unexpected(const CLI::App& command, const std::string& word, 
     return fmt::format("{}: {} is no option; there are {}{}", command.get_name(), in_quotes(name), listed(names),
                        did_you_mean(name, names));
   }
-  const std::string what = fmt::format("{}: {} was not expected", command.get_name(), in_quotes(word));
-  // A value in two words: option, word, word.
-  const auto stray = std::find(words.begin(), words.end(), word);
-  if (stray - words.begin() < 2) return what;
-  const std::string_view given = *(stray - 1), name = *(stray - 2);
-  const CLI::Option* option = name.starts_with('-') ? command.get_option_no_throw(std::string(name)) : nullptr;
-  if (!option || option->get_expected_min() == 0 || given.starts_with('-')) return what;
-  return fmt::format("{}; a value with spaces stands in quotes: {} \"{} {}\"", what, name, given, word);
+  // A value in two words: option, word, word. The second is the stray one, or has taken the place of it: "k=8", "mm", "sod".
+  const auto is_of_number = [](std::string_view next, std::string_view given) {
+    return !given.empty() && given.back() >= '0' && given.back() <= '9' && is_unit(next);
+  };
+  for (std::size_t i = 2; i < words.size(); ++i) {
+    const std::string_view name = words[i - 2], given = words[i - 1], next = words[i];
+    const CLI::Option* option = name.starts_with('-') ? command.get_option_no_throw(std::string(name)) : nullptr;
+    if (!option || option->get_expected_min() == 0 || given.starts_with('-') || next.starts_with('-')) continue;
+    if (next == word || is_of_number(next, given))
+      return fmt::format("{}: {} was not expected; a value with spaces stands in quotes: {} \"{} {}\"", command.get_name(),
+                         in_quotes(next), name, given, next);
+  }
+  return fmt::format("{}: {} was not expected", command.get_name(), in_quotes(word));
 }
 
 /// Reads a command line and runs its command. False if it is a wrong one, about which the user has been told; throws

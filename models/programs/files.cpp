@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fmt/os.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -96,9 +96,10 @@ void replace_file_durably(const Path& path, const std::function<void(const Path&
 
 void replace_file_by_text(const Path& path, std::string_view text) {
   replace_file(path, [&](const Path& temporary) {
-    auto out = fmt::output_file(temporary.string());
-    out.print("{}", text);
-    out.close();
+    // Not fmt::output_file: on a full disk it throws once more while it is destroyed, which ends the program.
+    errno = 0;
+    std::ofstream out(temporary, std::ios::binary);
+    if (!(out << text << std::flush)) throw std::system_error(errno, std::generic_category());
   });
 }
 

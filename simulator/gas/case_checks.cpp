@@ -108,7 +108,14 @@ void check_existence(TableReader& in, const State& state, const Case& c) {
 template <class State>
 void check_gas_state(TableReader& in, State& state, const Case& c, const Elsewhere& elsewhere = {}) {
   check_fluid_of(in, state, c);
-  if (!in.has("pressure") && elsewhere.pressure.empty()) in.problem("pressure", "missing: the pressure of the gas");
+  // In a fill an energy may stand in the place of the pressure.
+  const bool may_be_energy = std::is_same_v<State, FillConfig>, no_pressure = !in.has("pressure") && elsewhere.pressure.empty();
+  if (no_pressure && state.density && state.temperature && may_be_energy && elsewhere.density.empty())
+    return in.problem(
+        "there are a density and a temperature; give one of the two and a pressure, or the density and an energy");
+  if (no_pressure)
+    in.problem("pressure", fmt::format("missing: the pressure of the gas{}",
+                                       may_be_energy ? ", or instead of it the density and an energy" : ""));
   if (in.has("pressure") && !elsewhere.pressure.empty())
     in.problem("pressure", "it follows from " + elsewhere.pressure + "; give one of the two");
   if (elsewhere.needs_density && !in.has("density"))
@@ -193,6 +200,12 @@ void check_box(TableReader& in, const Case& c) {
   for (std::size_t k = 0, count = box_known(in) ? dimensions_of(c) : 0; k < count; ++k) {
     if (!(gas.lower[k] < gas.upper[k]))
       in.problem("upper", fmt::format("along {} the box ends before it begins", axis_names[k]));
+    const double across = (gas.upper[k] - gas.lower[k]) / c.cell_size;
+    if (across < least_cells - round_off) {
+      in.problem("upper", fmt::format("along {} the box is {:.3g} cells of {} wide; {:g} at least", axis_names[k], across,
+                                      in_metres(c.cell_size), least_cells));
+      continue;
+    }
     for (const auto& [name, corner] : {std::pair{"lower", gas.lower[k]}, std::pair{"upper", gas.upper[k]}}) {
       const double cells = corner / c.cell_size;
       if (std::abs(cells - std::round(cells)) > round_off * std::max(1.0, std::abs(cells)))
@@ -200,10 +213,6 @@ void check_box(TableReader& in, const Case& c) {
                                      in_metres(corner), in_metres(std::floor(cells) * c.cell_size),
                                      in_metres(std::ceil(cells) * c.cell_size)));
     }
-    const double cells = (gas.upper[k] - gas.lower[k]) / c.cell_size;
-    if (cells < least_cells - round_off)
-      in.problem("upper",
-                 fmt::format("along {} the box is {:.3g} cells wide; {:g} at least", axis_names[k], cells, least_cells));
   }
 }
 
@@ -519,11 +528,7 @@ void check_fields(TableReader& in, const std::vector<std::string>& wanted, const
   std::vector<std::string> fluids, names;
   for (const FluidConfig& fluid : c.gas->fluids) fluids.push_back(fluid.name);
   for (const Field& field : fields(c.dimensions(), fluids)) names.push_back(field.name);
-  const std::vector<std::string_view> allowed(names.begin(), names.end());
-  for (const std::string& field : wanted)
-    if (!field.empty() && std::find(names.begin(), names.end(), field) == names.end())
-      in.problem(
-          key, in_quotes(field) + " is not known of gas; it must be one of " + listed(allowed) + did_you_mean(field, allowed));
+  require_words(in, key, wanted, std::vector<std::string_view>(names.begin(), names.end()), "is not known of gas");
 }
 
 void check_in_box(TableReader& in, const Vector& from, const Vector& to, const Case& c) {

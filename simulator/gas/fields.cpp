@@ -1,5 +1,7 @@
 #include "simulator/gas/fields.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,13 +31,18 @@ double internal_energy_of(const Gas& gas, const CellPlace& at) {
   return content(gas, at, Content::energy) - 0.5 * square / mass_of(gas, at);
 }
 
+std::size_t fluid_of_most(const Gas& gas, const CellPlace& at) {
+  std::size_t most = 0;
+  for (std::size_t r = 1; r < gas.fluids.size(); ++r)
+    if (of_fluid(gas, at, r, Content::volume) > of_fluid(gas, at, most, Content::volume)) most = r;
+  return most;
+}
+
 /// Of the fluid that fills most of the cell: fluids share a pressure, not a temperature.
 double temperature_of(const Gas& gas, const CellPlace& at) {
-  std::size_t most = 0;
+  const std::size_t most = fluid_of_most(gas, at);
   double volume = content(gas, at, Content::room), internal = internal_energy_of(gas, at);
   if (gas.fluids.size() > 1) {
-    for (std::size_t r = 1; r < gas.fluids.size(); ++r)
-      if (of_fluid(gas, at, r, Content::volume) > of_fluid(gas, at, most, Content::volume)) most = r;
     volume = of_fluid(gas, at, most, Content::volume), internal = of_fluid(gas, at, most, Content::internal);
   }
   const double mass = of_fluid(gas, at, most, Content::mass);
@@ -75,6 +82,17 @@ std::vector<Field> fields_of(const Gas& gas) {
   std::vector<std::string> fluids;
   for (const Fluid& fluid : gas.fluids) fluids.push_back(fluid.name);
   return fields(gas.dimensions(), fluids);
+}
+
+MostOf most_of(const Gas& gas, const CellPlace& at) {
+  const std::size_t most = fluid_of_most(gas, at);
+  const bool alone = gas.fluids.size() == 1;
+  return {gas.fluids[most].name, alone ? 1.0 : of_fluid(gas, at, most, Content::volume) / content(gas, at, Content::room)};
+}
+
+std::string in_words(const MostOf& most) {
+  constexpr double all = 0.99995;  // shown as 100 %
+  return most.part >= all ? most.fluid + " alone" : fmt::format("{:.4g} % {} and other fluids", 100.0 * most.part, most.fluid);
 }
 
 std::optional<CellPlace> find_cell(const Gas& gas, const Vector& position) {

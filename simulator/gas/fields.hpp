@@ -21,6 +21,15 @@ struct Field {
 std::vector<Field> fields(int dimensions, const std::vector<std::string>& fluids);
 std::vector<Field> fields_of(const Gas& gas);
 
+/// The fluid that takes most of a cell, and which part of its volume.
+struct MostOf {
+  std::string fluid;
+  double part = 1.0;
+};
+MostOf most_of(const Gas& gas, const CellPlace& at);
+/// "air alone", "60 % water and other fluids"
+std::string in_words(const MostOf& most);
+
 /// The cell that holds a position; none outside the box, within bodies and in other processes.
 std::optional<CellPlace> find_cell(const Gas& gas, const Vector& position);
 /// Calls f(place) for the cells of the box that this process owns and that hold gas, in Morton order of the blocks.

@@ -41,6 +41,10 @@ void make_marked_cells_plain(Gas& gas) {
       plain = max(plain, mark), mark = Lanes(0.0);
     }
 }
+void forget_marks(Gas& gas) {
+  for (const std::int32_t b : gas.cells.mine)
+    std::fill_n(gas.marks.at(static_cast<std::size_t>(b), 0), gas.cells.packs(), Lanes(0.0));
+}
 /// No cell is plain any more; how many of this process were.
 std::int64_t forget_plain_cells(Gas& gas) {
   std::int64_t count = 0;
@@ -173,17 +177,18 @@ Outcome advance_fluids(Gas& gas, double dt, Domain& domain) {
     return Outcome::done;
   }
   const bool with_bodies = !gas.bodies.empty();
+  if (gas.careful) forget_marks(gas);  // of a step that was rejected
   if (with_bodies && !timed(gas, Phase::bodies, [&] { return move_bodies(gas, dt, domain); })) return Outcome::rejected;
   gas.careful = false;
   const int most_attempts = gas.implicit ? 1 : 3;  // the faces of the solve know no slopes to do without
   for (int attempt = 1; !attempt_step(gas, dt, domain); ++attempt) {
     clear_step(gas.passages);
-    make_marked_cells_plain(gas);
-    if (attempt == most_attempts) {
+    gas.careful = true;
+    if (attempt == most_attempts) {  // the marks stay: they tell why
       forget_plain_cells(gas);
       return Outcome::rejected;
     }
-    gas.careful = true;
+    make_marked_cells_plain(gas);
   }
   if (gas.careful) gas.plain += forget_plain_cells(gas);
   timed(gas, Phase::ghosts, [&] { with_bodies ? settle_with_bodies(gas, dt, domain) : settle(gas); });

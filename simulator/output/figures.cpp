@@ -18,6 +18,7 @@
 #include "simulator/output/extensive.hpp"
 #include "simulator/output/fields.hpp"
 #include "simulator/output/gauge_history.hpp"
+#include "simulator/output/gauges.hpp"
 #include "simulator/output/line_out.hpp"
 #include "simulator/output/measures.hpp"
 #include "simulator/output/particle_cells.hpp"
@@ -221,9 +222,14 @@ void draw_gas_energy(const Case& c, const Simulation& s, const Path& directory) 
   const std::vector<double> time = history.numbers("time", Unit::s);
   const Unit unit = unit_of(Extensive::energy, c.geometry);
   std::vector<double> change = history.numbers("gas_energy", unit);
+  const std::vector<double> kinetic = history.numbers("gas_kinetic_energy", unit);
   constexpr double rounding = 1e-12;
   const double start = change.front(), noise = rounding * std::abs(start);
-  for (double& energy : change) energy -= start;
+  std::vector<double> internal;  // its change
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    change[i] -= start;
+    internal.push_back(change[i] - (kinetic[i] - kinetic.front()));
+  }
   std::vector<Curve> curves;
   const auto add = [&](const std::string& title, const std::string& column, double factor = 1.0) {
     curves.push_back({title, {}, scaled(history.numbers(column, unit), factor)});
@@ -235,8 +241,10 @@ void draw_gas_energy(const Case& c, const Simulation& s, const Path& directory) 
   for (const gas::MovingBody& body : s.gas.bodies.all) add("work of " + body.name, body.name + "_work", -1.0);
   if (s.gas.gravity != Vector{}) add("work of gravity", "gravity_energy");
   add("in no book", "gas_residual_energy");
+  curves.push_back({"change of internal", {}, std::move(internal)});
   curves.push_back({"change of the total", {}, std::move(change)});
-  Panel panel = against_time("Energy of the gas", "energy", time, std::move(curves), unit, noise);
+  Panel panel = against_time(fmt::format("Energy of the gas, at the start {}", in_words(start, unit.text)), "energy", time,
+                             std::move(curves), unit, noise);
   colour_in_order(panel);
   draw(c, {c.title, {std::move(panel)}, 1, 900, 380}, directory / "energy.png");
 }
@@ -298,39 +306,58 @@ void draw_reactions(const Case& c, const Simulation& s, const Path& directory) {
   draw(c, std::move(figure), directory / "reactions.png");
 }
 
-/// A panel for each field that gauges have recorded, as many of them as there are colours.
+/// "mast", or of a place of a line "profile, x = 25 mm": where it was at the start.
+std::string title_of(const GaugeSeries& series, const Case& c) {
+  std::string title = in_words(series.gauge);
+  if (!series.place) return title;
+  const GaugeConfig& gauge =
+      *std::find_if(c.gauges.begin(), c.gauges.end(), [&](const GaugeConfig& g) { return g.name == series.gauge; });
+  const Vector place = places_of(gauge, c.cell_size)[*series.place];
+  for (std::size_t a = 0; a < 3; ++a)
+    if (gauge.from[a] != gauge.to[a]) title += fmt::format(", {} = {}", "xyz"[a], in_words(place[a], "m", 3));
+  return title;
+}
+
+/// A panel for each field that gauges have recorded: of those at points, all of them, and another of the places of lines, as
+/// many of them, evenly, as there are colours.
 void draw_gauges(const Case& c, const Path& directory) {
   const std::vector<GaugeSeries> all = read_gauges(c, directory);
-  std::vector<std::string> fields;
+  struct Shown {
+    std::string field;
+    bool of_line;
+    std::vector<const GaugeSeries*> series;
+  };
+  std::vector<Shown> panels;
   double end = 0.0;
   for (const GaugeSeries& s : all) {
-    if (std::find(fields.begin(), fields.end(), s.field) == fields.end()) fields.push_back(s.field);
+    const bool of_line = s.place.has_value();
+    const auto same = [&](const Shown& panel) { return panel.field == s.field && panel.of_line == of_line; };
+    auto panel = std::find_if(panels.begin(), panels.end(), same);
+    if (panel == panels.end()) panel = panels.insert(panels.end(), {s.field, of_line, {}});
+    panel->series.push_back(&s);
     end = std::max(end, largest(s.time));
   }
   const Scale times = scale_for("s", end);
   constexpr std::size_t most_above_each_other = 4;
   Figure figure{c.title + ": gauges", {}, 1, 900, 280};
-  if (fields.size() > most_above_each_other) figure.columns = 2, figure.panel_width = 700;
-  for (const std::string& field : fields) {
-    std::vector<const GaugeSeries*> shown;
+  if (panels.size() > most_above_each_other) figure.columns = 2, figure.panel_width = 700;
+  for (const auto& [field, of_line, series] : panels) {
     double most = 0.0;
-    for (const GaugeSeries& s : all)
-      if (s.field == field) shown.push_back(&s), most = std::max(most, largest(s.value));
-    const Scale scale = scale_for(shown.front()->unit, most);
+    for (const GaugeSeries* s : series) most = std::max(most, largest(s->value));
+    const Scale scale = scale_for(series.front()->unit, most);
     Panel panel;
     panel.x_label = label("time", times), panel.y_label = label(in_words(field), scale);
     panel.x_range = from_the_start(end, times);
-    if (const std::size_t count = shown.size(); count > palette_size) {
-      panel.title = fmt::format("{} of {}", palette_size, count);
-      std::vector<const GaugeSeries*> evenly;
-      for (std::size_t k = 0; k < palette_size; ++k) evenly.push_back(shown[k * (count - 1) / (palette_size - 1)]);
-      shown = std::move(evenly);
-    }
+    const std::size_t count = series.size(), shown = of_line ? std::min(count, palette_size) : count;
+    if (shown < count) panel.title = fmt::format("{} of {} places; all are in history.csv", shown, count);
     legend_beside(panel);
-    int colour = 0;
-    for (const GaugeSeries* s : shown)
-      panel.curves.push_back({in_words(s->label), scaled(s->time, times.per_si), scaled(s->value, scale.per_si),
-                              s->time.size() == 1 ? Mark::dots : Mark::line, colour++});
+    for (std::size_t k = 0; k < shown; ++k) {
+      const GaugeSeries& s = *series[shown < count ? k * (count - 1) / (shown - 1) : k];
+      panel.curves.push_back({title_of(s, c), scaled(s.time, times.per_si), scaled(s.value, scale.per_si)});
+    }
+    colour_in_order(panel);
+    for (Curve& curve : panel.curves)
+      if (curve.x.size() == 1) curve.mark = Mark::dots;
     let_all_be_seen(panel.curves);
     figure.panels.push_back(std::move(panel));
   }

@@ -37,7 +37,8 @@ std::vector<GaugeSeries> read_gauges(const Case& c, const std::filesystem::path&
         const std::optional<Suffix> suffix = column.starts_with(stem) ? suffix_of(column.substr(stem.size())) : std::nullopt;
         if (!suffix) continue;
         GaugeSeries series{column.substr(first_word.size()),
-                           gauge.name + suffix->place,
+                           gauge.name,
+                           suffix->place.empty() ? std::nullopt : std::optional(std::stoul(suffix->place.substr(1))),
                            field + suffix->component,
                            unit_of_field(field),
                            {},

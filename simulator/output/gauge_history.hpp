@@ -2,6 +2,7 @@
 // What the gauges of a run have seen, as history.csv keeps it.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,10 @@ namespace brisance::simulator {
 
 /// One number of a gauge over time.
 struct GaugeSeries {
-  std::string name;   // of its column, without the first word: GAUGE_FIELD, of a vector with _x, of a line with _00
-  std::string label;  // GAUGE, of a line with _00
-  std::string field;  // FIELD, of a vector with _x
+  std::string name;  // of its column, without the first word: GAUGE_FIELD, of a vector with _x, of a line with _00
+  std::string gauge;
+  std::optional<std::size_t> place;  // of a line: which of its places, from 0 on
+  std::string field;                 // FIELD, of a vector with _x
   std::string unit;
   std::vector<double> time, value;  // s, SI; rows without material are left out
 };

@@ -4,7 +4,9 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "models/programs/files.hpp"
@@ -12,11 +14,16 @@
 namespace brisance::simulator {
 namespace {
 
+/// The library's own words are switched off: the system knows better why a disk takes no more.
+[[noreturn]] void fail(std::string_view what) {
+  throw std::runtime_error(fmt::format("HDF5: {} failed{}", what, errno ? ": " + std::generic_category().message(errno) : ""));
+}
+
 /// Owns an HDF5 identifier and closes it.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close_it)(hid_t), std::string_view what) : id_(id), close_(close_it) {
-    if (id < 0) throw std::runtime_error(fmt::format("HDF5: {} failed", what));
+    if (id < 0) fail(what);
   }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
@@ -26,7 +33,7 @@ class Handle {
   operator hid_t() const { return id_; }
   /// Closing writes what the library has kept; it may fail.
   void close(std::string_view what) {
-    if (close_(std::exchange(id_, -1)) < 0) throw std::runtime_error(fmt::format("HDF5: {} failed", what));
+    if (close_(std::exchange(id_, -1)) < 0) fail(what);
   }
 
  private:
@@ -35,7 +42,7 @@ class Handle {
 };
 
 void require(herr_t status, std::string_view what) {
-  if (status < 0) throw std::runtime_error(fmt::format("HDF5: {} failed; is the disk full?", what));
+  if (status < 0) fail(what);
 }
 
 /// The library prints its own error stack unless told not to; errors are raised by `require` and Handle. Files are closed by
@@ -44,6 +51,7 @@ void silence() {
   static const herr_t no_cleanup_at_exit = H5dont_atexit();
   (void)no_cleanup_at_exit;
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  errno = 0;  // of what went wrong before
 }
 
 template <class T>

@@ -178,6 +178,16 @@ void replace_case(const fs::path& directory, Case c) {
   replace_file_by_text(directory / "case.toml", write_case(c));
 }
 
+/// The time of the last line of a log, s; 0 if there is none.
+double last_time_in(const fs::path& path) {
+  double time = 0.0;
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);)
+    if (const auto time_ends = line.find(after_time); time_ends != std::string::npos)
+      time = std::max(time, std::strtod(line.c_str(), nullptr));
+  return time;
+}
+
 std::vector<std::string> read_log(const fs::path& path) {
   std::vector<std::string> lines;
   std::ifstream in(path);
@@ -188,7 +198,7 @@ std::vector<std::string> read_log(const fs::path& path) {
   return lines;
 }
 
-Log::Log(const fs::path& path, double wall_time_before) : out_(path, std::ios::app), before_(wall_time_before) {}
+Log::Log(const fs::path& path) : before_(last_time_in(path)), out_(path, std::ios::app) {}
 
 double Log::wall_time() const {
   return before_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();

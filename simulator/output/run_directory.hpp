@@ -17,17 +17,17 @@ namespace brisance::simulator {
 /// not look like the output of a run is never removed.
 void prepare_directory(const std::filesystem::path& directory, const Case& c, bool overwrite);
 
-/// log.txt: lines with the time since the start. It never throws: what the log cannot hold is no reason to end a run.
+/// log.txt: lines with the time since the start. Where a log is there already, its clock goes on. It never throws: what the log
+/// cannot hold is no reason to end a run.
 class Log {
  public:
-  explicit Log(const std::filesystem::path& path, double wall_time_before = 0.0);
+  explicit Log(const std::filesystem::path& path);
   void line(const std::string& text);
   double wall_time() const;  // s, of this run and of those it goes on from
-  void set_wall_time_before(double seconds) { before_ = seconds; }
 
  private:
+  double before_;  // s, of the runs that this one goes on from
   std::ofstream out_;
-  double before_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <set>
+#include <span>
 
 #include "models/programs/files.hpp"
 #include "simulator/output/extensive.hpp"
@@ -95,18 +97,47 @@ std::string gas_in_words(const Books& all, double cells_times_steps) {
   return text;
 }
 
+Json json_of_place(const Vector& x) {
+  Json place = Json::object();
+  for (std::size_t a = 0; a < 3; ++a) place.set(std::string(1, "xyz"[a]), x[a]);
+  return place;
+}
+
 /// Where a fluid was farthest outside of the densities that its equation of state declares.
 Json json_of(const gas::RangeReport& report) {
   const gas::OutsideRange& o = report.outside;
-  Json place = Json::object();
-  for (std::size_t a = 0; a < 3; ++a) place.set(std::string(1, "xyz"[a]), o.place[a]);
   const bool above = o.density > report.range.highest;
   return Json::object()
       .set("cell_steps", o.cell_steps)
       .set("density", o.density)
       .set(above ? "highest" : "lowest", above ? report.range.highest : report.range.lowest)
       .set("time", o.time)
-      .set("place", place);
+      .set("place", json_of_place(o.place));
+}
+
+std::string in_words(const gas::Hottest& hottest, int dimensions) {
+  std::string text;
+  const auto row = [&](const char* name, const gas::HotCell& cell) {
+    text +=
+        fmt::format("  {:24} {:14.6g}  at ({:.6g}) m, of {}\n", name, cell.temperature,
+                    fmt::join(std::span(cell.place).first(static_cast<std::size_t>(dimensions)), ", "), in_words(cell.fluid));
+  };
+  row("hottest cell now [K]", hottest.of_all);
+  if (hottest.of_one_fluid && hottest.of_one_fluid->place != hottest.of_all.place)
+    row("hottest of one fluid [K]", *hottest.of_one_fluid);
+  if (is_doubtful(hottest))
+    text +=
+        "  caution: the hottest cell is shared by fluids; the temperature of little of a fluid at a contact is often none that "
+        "it would have: trust that of the cells of one fluid\n";
+  return text;
+}
+
+Json json_of(const gas::HotCell& cell) {
+  return Json::object()
+      .set("temperature", cell.temperature)
+      .set("place", json_of_place(cell.place))
+      .set("fluid", cell.fluid.fluid)
+      .set("part", cell.fluid.part);
 }
 
 }  // namespace
@@ -120,6 +151,31 @@ std::vector<FailedParticles> failed_particles(const Simulation& s) {
     if (failed > 0) bodies.push_back({body.name, failed, body.particles.size});
   }
   return bodies;
+}
+
+std::vector<std::array<std::string, 2>> in_contact(const Simulation& s) {
+  using Cell = std::array<int, 3>;
+  std::vector<std::set<Cell>> cells(s.bodies.size());  // that hold particles of each body
+  for (std::size_t b = 0; b < s.bodies.size() && s.bodies.size() > 1; ++b)
+    for (int p = 0; p < s.bodies[b].particles.size; ++p) {
+      const Vector x = (1.0 / s.grid.cell_size) * (ParticleView(s.bodies[b].particles, p).position() - s.grid.origin);
+      Cell cell{};
+      for (std::size_t a = 0; a < static_cast<std::size_t>(s.dimensions()); ++a) cell[a] = static_cast<int>(std::floor(x[a]));
+      cells[b].insert(cell);
+    }
+  const auto beside = [](const std::set<Cell>& all, const Cell& cell) {
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k)
+          if (all.contains({cell[0] + i, cell[1] + j, cell[2] + k})) return true;
+    return false;
+  };
+  std::vector<std::array<std::string, 2>> pairs;
+  for (std::size_t a = 0; a < cells.size(); ++a)
+    for (std::size_t b = a + 1; b < cells.size(); ++b)
+      if (std::any_of(cells[a].begin(), cells[a].end(), [&](const Cell& cell) { return beside(cells[b], cell); }))
+        pairs.push_back({s.bodies[a].name, s.bodies[b].name});
+  return pairs;
 }
 
 void write_summary(const Summary& s, const std::filesystem::path& path) {
@@ -168,6 +224,15 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
     for (const gas::RangeReport& report : s.books.gas->outside) outside.set(report.fluid, json_of(report));
     all.set("outside_declared_densities", outside).set("not_gated", s.not_gated);
   }
+  if (!s.in_contact.empty()) {
+    Json pairs = Json::list();
+    for (const auto& [a, b] : s.in_contact) pairs.append(Json::list().append(a).append(b));
+    all.set("in_contact", pairs);
+  }
+  if (s.hottest) {
+    all.set("hottest_cell", json_of(s.hottest->of_all));
+    if (s.hottest->of_one_fluid) all.set("hottest_cell_of_one_fluid", json_of(*s.hottest->of_one_fluid));
+  }
   Json resumed_after = Json::list();
   for (const std::string& gate : s.resumed_after) resumed_after.append(gate);
   Json other_experiment = Json::list();
@@ -196,6 +261,8 @@ std::string in_words(const Summary& s) {
   for (const std::string& gate : s.resumed_after) text += fmt::format("  caution: resumed after {}\n", gate);
   for (const FailedParticles& f : s.failed)
     text += fmt::format("  failed: {} of {} particles of {}\n", f.failed, f.all, f.body);
+  for (const auto& [a, b] : s.in_contact)
+    text += fmt::format("  in contact: {} and {}; bodies that have met stick together, where real ones may fly off\n", a, b);
   if (!s.measures.empty())
     text += fmt::format("  {:24} {:>14} {:>14} {:>10}\n", "measure", "computed", "measured", "deviation");
   for (const MeasuredValue& m : s.measures) {
@@ -219,6 +286,7 @@ std::string in_words(const Summary& s) {
   if (!s.other_experiment.empty())
     text += fmt::format("  caution: measured is the experiment of the case as its file states it; --set has changed {}\n",
                         fmt::join(s.other_experiment, ", "));
+  if (s.hottest) text += in_words(*s.hottest, number_of_dimensions(s.books.geometry));
   if (s.books.gas) {
     text += gas_in_words(s.books, static_cast<double>(s.steps) * static_cast<double>(s.particles));
     return text + (s.not_gated.empty() ? "" : fmt::format("  not gated: {}\n", s.not_gated));

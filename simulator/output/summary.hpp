@@ -1,11 +1,13 @@
 #pragma once
 // summary.json and the same for people to read.
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "simulator/gas/hottest.hpp"
 #include "simulator/output/gauge_history.hpp"
 #include "simulator/output/history.hpp"
 #include "simulator/output/measures.hpp"
@@ -19,6 +21,9 @@ struct FailedParticles {
 };
 /// Of the bodies that have any.
 std::vector<FailedParticles> failed_particles(const Simulation& s);
+
+/// Pairs of solids that have particles in one cell or in neighbouring ones: they move each other.
+std::vector<std::array<std::string, 2>> in_contact(const Simulation& s);
 
 struct Summary {
   std::string title, subtitle, ending, message;
@@ -34,6 +39,8 @@ struct Summary {
   std::vector<std::string> resumed_after{};     // gates that had ended it before
   std::vector<std::string> other_experiment{};  // what --set has changed of the one that its measures are compared with
   std::vector<FailedParticles> failed{};
+  std::vector<std::array<std::string, 2>> in_contact{};  // solids
+  std::optional<gas::Hottest> hottest{};                 // of gas
 };
 
 /// How a run came to its end, as the summary that it wrote tells it; nothing if there is none.

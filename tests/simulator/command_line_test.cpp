@@ -128,6 +128,9 @@ energy = ")" + energy + "\"\n")
 TEST(CommandLine, SaysWhatIsMeantByAWordThatItDoesNotTake) {
   EXPECT_TRUE(contains(call({"run", "sod", "--set", "end_time=12", "us", "--overwrite"}).err,
                        "run: \"us\" was not expected; a value with spaces stands in quotes: --set \"end_time=12 us\"\n"));
+  EXPECT_TRUE(contains(call({"run", "--set", "end_time=12", "us", "sod"}).err,
+                       "run: \"us\" was not expected; a value with spaces stands in quotes: --set \"end_time=12 us\"\n"))
+      << "it stands where the case would";
   EXPECT_EQ(call({"check", "sod", "foo"}).err, "check: \"foo\" was not expected\n") << "it follows no option";
   EXPECT_EQ(call({"run", "--overwrite", "sod", "foo"}).err, "run: \"foo\" was not expected\n") << "a flag has no value";
   EXPECT_EQ(call({"run", "--set", "end_time=1", "sod", "foo"}).err, "run: \"foo\" was not expected\n") << "it has its value";

@@ -28,11 +28,14 @@ TEST(GaugeHistory, FindsTheColumnsOfEveryGaugeAndTheirPeaks) {
   c.gauges = {gauge("wall", {"pressure", "plastic_strain"}), gauge("wall_2", {"velocity"}), gauge("ray", {"pressure"})};
   const std::vector<GaugeSeries> all = read_gauges(c, directory);
   ASSERT_EQ(all.size(), 6u);  // the rate was not asked for
-  EXPECT_EQ(all[0].label, "wall");
+  EXPECT_EQ(all[0].gauge, "wall");
   EXPECT_EQ(all[0].unit, "Pa");
-  EXPECT_EQ(all[2].label, "wall_2");
+  EXPECT_EQ(all[2].gauge, "wall_2");
   EXPECT_EQ(all[2].field, "velocity_x");
-  EXPECT_EQ(all[4].label, "ray_00");
+  EXPECT_EQ(all[4].gauge, "ray");
+  EXPECT_EQ(all[4].place, 0u);
+  EXPECT_EQ(all[5].place, 1u);
+  EXPECT_FALSE(all[0].place);
   EXPECT_EQ(all[4].time, (std::vector<double>{1.0, 2.0})) << "rows without material are left out";
   const std::vector<GaugePeak> peaks = peaks_of(all);
   ASSERT_EQ(peaks.size(), 5u) << "where there never was material there is no peak";

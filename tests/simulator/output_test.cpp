@@ -154,8 +154,23 @@ TEST(Snapshot, AFullDiskIsReportedAndLeavesTheEarlierOneGood) {
   for (const std::uintmax_t bytes : {std::uintmax_t{1000}, std::uintmax_t{20000}, before.size() - 100, before.size() - 10}) {
     const std::string message = on_a_full_disk([&] { write_snapshot(directory, s, {1e-6}); }, bytes);
     EXPECT_NE(message.find("bar_particles_000000.hdf: cannot be written"), std::string::npos) << bytes << ": " << message;
+    EXPECT_NE(message.find("File too large"), std::string::npos) << "the reason: " << message;
     EXPECT_TRUE(text_of(file) == before) << bytes;
   }
+}
+
+TEST(AText, ThatAFullDiskDoesNotTakeIsReportedWithTheReason) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const fs::path file = scratch() / "text";
+  fs::create_symlink("/dev/full", file.string() + ".part");
+  std::string message;
+  try {
+    replace_file_by_text(file, "rows");
+  } catch (const std::runtime_error& error) {
+    message = error.what();
+  }
+  EXPECT_NE(message.find("text: cannot be written: No space left on device"), std::string::npos) << message;
+  EXPECT_FALSE(fs::exists(file));
 }
 
 /// An image file read by the rules of VTK's file formats alone: every attribute must be there, and the packed arrays must

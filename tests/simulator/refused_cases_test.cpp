@@ -62,7 +62,7 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
        "{ difference = { from = { sphere = { centre = [0, 0.1], radius = 0.01 } }, without = [ { box = { lower = [0, 0], upper "
        "= "
        "[1, 1] } } ] } }",
-       "case.toml:10:9: solid.0.shape: it fills nothing: what is taken away leaves no part that could hold a particle"},
+       "case.toml:10:9: solid.0.shape: it fills nothing: it leaves no part that could hold a particle of cells of "},
       {"{ cylinder = { start = [0, 0], end = [0, \"25.4 mm\"], radius = \"3.81 mm\" } }", "{ union = [] }",
        "solid.0.shape.union: a list of shapes is required, with at least one"},
       {"position = 0", "position = \"-1 mm\"",
@@ -172,6 +172,16 @@ TEST(CaseReader, SaysWhatIsWrongAndWhatIsAllowed) {
     EXPECT_NE(problems_of(text).find(hostile.message), std::string::npos)
         << "wanted: " << hostile.message << "\ngot:    " << problems_of(text);
   }
+}
+
+TEST(CaseReader, TellsWhatIsAllowedOnceForAllWordsOfAList) {
+  std::string text = bar;
+  text += "[[gauge]]\nname = \"tip\"\nkind = \"point\"\nfrom = [0, 0]\nfields = [\"presure\", \"heat\", \"pressure\"]\n";
+  const std::string problems = problems_of(text), second = problems.substr(problems.find("\"heat\""));
+  EXPECT_NE(problems.find("\"presure\" cannot be recorded; it must be one of position, velocity,"), std::string::npos)
+      << problems;
+  EXPECT_NE(problems.find("did you mean \"pressure\"?"), std::string::npos) << problems;
+  EXPECT_EQ(second, "\"heat\" cannot be recorded");
 }
 
 TEST(CaseReader, DoesNotBlameAShapeForAWrongCellSize) {

@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <limits>
+#include <sstream>
 
 #include "simulator/case_reader.hpp"
 #include "simulator/output/checkpoint.hpp"
@@ -30,6 +31,25 @@ struct Fixture {
     return directory / name;
   }
 };
+
+/// What was done after the last checkpoint has taken time as well.
+TEST(Restart, LetsTheClockOfTheLogGoOn) {
+  const Fixture f;
+  const fs::path directory = f.fresh("run");
+  Simulation first = set_up(f.c);
+  ASSERT_EQ(run(f.c, first, {directory, {}, 17}).ending, Ending::interrupted);
+  Log(directory / "log.txt").line("an hour later");
+  std::string log = text_of(directory / "log.txt");
+  log.replace(log.rfind("an hour later") - 14, 10, "   3600.00");
+  write_text(directory / "log.txt", log);
+  Simulation second = set_up(f.c);
+  const RunResult resumed = resume(f.c, second, {directory, {}});
+  ASSERT_EQ(resumed.ending, Ending::done) << resumed.message;
+  EXPECT_GE(resumed.summary.wall_time, 3600.0);
+  double last = 0.0;
+  std::istringstream lines(text_of(directory / "log.txt"));
+  for (std::string line; std::getline(lines, line); last = std::stod(line)) EXPECT_GE(std::stod(line), last) << line;
+}
 
 TEST(Restart, GivesTheBitsOfARunThatNeverStopped) {
   const Fixture f;

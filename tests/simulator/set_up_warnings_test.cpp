@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "simulator/output/summary.hpp"
+#include "simulator/solid/shapes.hpp"
 #include "tests/simulator/by_hand.hpp"
 
 namespace brisance::simulator {
@@ -72,6 +74,24 @@ TEST(MovingBody, MeetsAnotherBodyIfTheirWaysCross) {
   EXPECT_TRUE(set_up_warnings(c).empty());
   c.bodies[1].velocity.translation[0] = 10.0;
   EXPECT_EQ(set_up_warnings(c).size(), 2u) << "the target flies into nothing as well";
+}
+
+/// Two blocks a few cells apart, which come together: they are named from then on, and that they stick.
+TEST(Bodies, ThatHaveMetAreNamedInTheSummary) {
+  Case c = falling_block();
+  c.boundaries.clear();
+  const Bounds block = bounds(*c.bodies[0].shape);
+  const double gap = 4.0 * h, below = block.lower[1] - gap;
+  c.bodies.push_back(by_hand::body("target", c.bodies[0].material.material,
+                                   box({block.lower[0], below - 4.0 * h, 0.0}, {block.upper[0], below, 0.0})));
+  Simulation s = set_up(c);
+  EXPECT_TRUE(in_contact(s).empty());
+  c.bodies[0].shape = box({block.lower[0], below, 0.0}, {block.upper[0], below + 4.0 * h, 0.0});
+  Summary summary;
+  summary.in_contact = in_contact(set_up(c));
+  ASSERT_EQ(summary.in_contact.size(), 1u);
+  EXPECT_EQ(summary.in_contact[0], (std::array<std::string, 2>{"block", "target"}));
+  EXPECT_NE(in_words(summary).find("in contact: block and target; bodies that have met stick together"), std::string::npos);
 }
 
 TEST(MovingBody, InDoubtMeetsSomething) {

@@ -278,6 +278,13 @@ TEST(Override, ThatCannotBeAppliedIsReportedByItsKey) {
 
 // --- Messages ---------------------------------------------------------------------------------------------------------
 
+TEST(Nearest, InitialsStandForAName) {
+  constexpr std::array<std::string_view, 3> laws = {"jones_wilkins_lee", "jwl_plus_plus", "johnson_cook"};
+  EXPECT_EQ(did_you_mean("jwl", laws), "; did you mean \"jones_wilkins_lee\" or \"jwl_plus_plus\"?");
+  EXPECT_EQ(did_you_mean("JWL", laws), did_you_mean("jwl", laws));
+  EXPECT_EQ(did_you_mean("jwm", laws), "");
+}
+
 TEST(Nearest, WordIsFoundThroughOneSlip) {
   constexpr std::array<std::string_view, 4> words = {"length", "width", "A", "reference_temperature"};
   for (const char* slip : {"lenght", "legth", "lengthh", "Length", "lemgth", "LENGTH"})

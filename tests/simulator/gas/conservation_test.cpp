@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/gas/rejection.hpp"
 #include "tests/simulator/gas/set_up.hpp"
 #include "tests/simulator/virtual_ranks.hpp"
 
@@ -265,6 +266,30 @@ TEST(RejectedStep, ChangesNothing) {
     ASSERT_EQ(advance(twin, dt, *domain), Outcome::done);
     EXPECT_EQ(state_of(gas), state_of(twin)) << problem.name << ": the step after it";
   }
+}
+
+/// At rest, but one cell of the second fluid has a pressure that drives the next out of theirs.
+TEST(RejectedStep, NamesTheCellAndItsFluid) {
+  const auto domain = single_process();
+  constexpr double h = 0.01;
+  Fluid other = set_up::ideal_gas(1.6);
+  other.name = "other";
+  Gas gas = set_up::box(Geometry::planar_1d, h, {0, 0, 0}, {40, 0, 0}, {set_up::ideal_gas(), other}, *domain);
+  fill(
+      gas,
+      [](const Vector& x, double) {
+        return Filling{x[0] < 0.2 ? 0 : 1, 1.0, x[0] > 0.30 && x[0] < 0.31 ? 1e3 : 1.0, {}};
+      },
+      *domain);
+  const double dt = largest_step(gas, 0.5);
+  ASSERT_EQ(advance(gas, 20.0 * dt, *domain), Outcome::rejected);
+  const std::string why = why_rejected(gas), before = "leave the cell of gas at (";
+  ASSERT_NE(why.find(before), std::string::npos) << why;
+  EXPECT_NEAR(std::stod(why.substr(why.find(before) + before.size())), 0.305, 2.0 * h) << why;
+  EXPECT_NE(why.find("it holds other alone"), std::string::npos) << why;
+  // What is accepted since has no part in it.
+  ASSERT_EQ(advance(gas, 0.1 * dt, *domain), Outcome::done);
+  EXPECT_EQ(why_rejected(gas).find(before), std::string::npos);
 }
 
 // Bits -----------------------------------------------------------------------------------------------------------------

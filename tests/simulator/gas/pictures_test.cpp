@@ -114,6 +114,27 @@ TEST(PicturesOfGas, ShowTheReferenceOverWhatWasComputedAndTheBodyOverTheCells) {
   EXPECT_TRUE(contains(field, "filledcurves closed") && contains(field, "with lines")) << field;
 }
 
+/// A point is drawn however many places a line has, and these tell where they are; energies are of three kinds.
+TEST(PicturesOfGas, DrawEveryPointAndKindOfEnergy) {
+  const fs::path directory = scratch();
+  Case c = read_case(fs::path(BRISANCE_SOURCE_DIR) / "data/cases/sod.toml", {"output.figures=false"});
+  for (const char* name : {"profile", "mast"}) {
+    GaugeConfig gauge;
+    const bool line = std::string(name) == "profile";
+    gauge.name = name, gauge.fields = {"pressure"}, gauge.moves = false;
+    gauge.kind = line ? GaugeKind::line : GaugeKind::point;
+    gauge.from = {0.25, 0.0, 0.0}, gauge.to = {line ? 0.5 : 0.0, 0.0, 0.0};
+    c.gauges.push_back(gauge);
+  }
+  Simulation s = set_up(c);
+  ASSERT_EQ(run(c, s, {directory, {}, 30}).ending, Ending::interrupted);
+  const std::string told = told_to_gnuplot(c, s, directory);
+  for (const char* curve : {"title \"mast\"", "title \"profile, x = 250 mm\"", "title \"profile, x = 500 mm\"",
+                            "\"8 of 101 places; all are in history.csv\"", "title \"kinetic\"", "title \"change of internal\"",
+                            "Energy of the gas, at the start 1.375 J/m"})
+    EXPECT_TRUE(contains(told, curve)) << curve << "\n" << told.substr(0, 6000);
+}
+
 /// What gnuplot is told of a range for the first time: "1:2".
 std::string range_after(const std::string& told, const std::string& command) {
   const std::size_t begin = told.find(command + " [");
@@ -179,7 +200,8 @@ TEST(PicturesOfEnergy, ShowLinesThatLieOnEachOther) {
   EXPECT_EQ(style_of("through high\\\\_x"), "lines lw 2 dt (21,7)");
   EXPECT_EQ(style_of("through low\\\\_y"), "lines lw 2 dt (14,14)");
   EXPECT_EQ(style_of("through high\\\\_y"), "lines lw 2 dt (7,21)");
-  EXPECT_EQ(style_of("change of the total"), "lines lw 2") << "on no other";
+  EXPECT_EQ(style_of("change of internal"), "lines lw 2") << "on no other";
+  EXPECT_EQ(style_of("change of the total"), "lines lw 2 dt (14,14)") << "on that, as little is kinetic";
 }
 
 TEST(PicturesAboutAnAxis, NameTheCoordinatesAsTheCaseFileDoes) {

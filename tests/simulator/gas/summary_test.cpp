@@ -58,6 +58,38 @@ TEST(TheSummaryOfABodyThatTurns, TellsTheAngle) {
   EXPECT_TRUE(contains(in_words(summary_of(s)), "it turned [degrees]")) << in_words(summary_of(s));
 }
 
+/// Fluids meet in a cell that is far hotter than all that one fluid fills.
+TEST(TheSummaryOfSeveralFluids, TellsTheHottestCellsWithAndWithoutThoseThatTheyShare) {
+  Case c = read_case(fs::path(BRISANCE_SOURCE_DIR) / "data/cases/water_air_shock_tube.toml", {"output.figures=false"});
+  Simulation s = set_up(c);
+  const gas::Gas& gas = s.gas;
+  const gas::Hottest pure = gas::hottest(gas);
+  ASSERT_TRUE(pure.of_one_fluid);
+  EXPECT_EQ(pure.of_all.temperature, pure.of_one_fluid->temperature);
+  EXPECT_FALSE(gas::is_doubtful(pure));
+  // A tenth of the volume of one cell is given to the other fluid, and all of its heat stays with the first.
+  const gas::CellPlace at = *gas::find_cell(gas, pure.of_all.place);
+  const int first = gas::Content::fluids(gas.dimensions()), second = first + gas.fluid_quantities();
+  const bool of_first = gas.fluids[0].name == pure.of_all.fluid.fluid;
+  const auto value = [&](bool one, int quantity) -> double& {
+    return s.gas.content.cell(at.block, (one == of_first ? first : second) + quantity, at.cell);
+  };
+  value(false, gas::Content::volume) = 0.1 * value(true, gas::Content::volume);
+  value(true, gas::Content::volume) *= 0.9, value(true, gas::Content::internal) *= 3.0;
+  const gas::Hottest shared = gas::hottest(gas);
+  EXPECT_GT(shared.of_all.temperature, 1.5 * pure.of_all.temperature);
+  EXPECT_NEAR(shared.of_all.fluid.part, 0.9, 1e-6);
+  EXPECT_LE(shared.of_one_fluid->temperature, pure.of_all.temperature);
+  EXPECT_TRUE(gas::is_doubtful(shared));
+  Summary summary = summary_of(s);
+  summary.hottest = shared;
+  EXPECT_TRUE(contains(in_words(summary), "hottest of one fluid [K]")) << in_words(summary);
+  EXPECT_TRUE(contains(in_words(summary), "caution: the hottest cell is shared by fluids")) << in_words(summary);
+  const fs::path file = scratch() / "summary.json";
+  write_summary(summary, file);
+  EXPECT_TRUE(contains(text_of(file), "\"hottest_cell\": {") && contains(text_of(file), "\"hottest_cell_of_one_fluid\": {"));
+}
+
 TEST(TheSummaryOfGasInCells, SaysWhatCautionMeansAndWhetherToAct) {
   const Case c = read_case(fs::path(BRISANCE_SOURCE_DIR) / "data/cases/sod.toml", {"output.figures=false"});
   Summary summary = summary_of(after_steps(c, 10));
