@@ -12,7 +12,7 @@
 #include "models/input/diagnostics.hpp"
 #include "models/input/units.hpp"
 #include "models/interpolate.hpp"
-#include "simulator/gas/equilibrium.hpp"
+#include "simulator/gas/fluid_state.hpp"
 #include "simulator/solid/shapes.hpp"
 #include "simulator/step_failure.hpp"
 
