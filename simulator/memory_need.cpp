@@ -24,7 +24,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 struct CellBytes {
   double one_fluid, another, bodies_at_rest, bodies;
 };
-constexpr CellBytes cell_bytes[] = {{177.0, 137.0, 0.0, 0.0}, {245.0, 180.0, 245.0, 570.0}, {480.0, 300.0, 400.0, 700.0}};
+constexpr CellBytes cell_bytes[] = {{177.0, 137.0, 0.0, 0.0}, {281.0, 180.0, 245.0, 570.0}, {590.0, 300.0, 400.0, 700.0}};
 
 MemoryNeed need_of_gas(const Case& c) {
   const GasConfig& gas = *c.gas;

@@ -95,7 +95,10 @@ struct Primitive {
 struct HalfStep {
   static constexpr int pressure = 0, velocity = 1;
   static constexpr int plain(int dimensions) { return 1 + dimensions; }
-  static constexpr int count(int dimensions) { return 2 + dimensions; }
+  /// Of the area across an axis, in parts of itself: by how much it grows (the same axis), how far it tilts towards another
+  /// one. There is none in one dimension. See moving_faces.hpp.
+  static constexpr int area(int dimensions, int across, int towards) { return 2 + dimensions + dimensions * across + towards; }
+  static constexpr int count(int dimensions) { return dimensions == 1 ? 3 : area(dimensions, dimensions, 0); }
 };
 
 /// Coefficients, temperature and velocity gradients of a cell, from which stress and heat flow follow.

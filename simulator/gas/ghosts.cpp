@@ -136,6 +136,25 @@ void share_primitives(Gas& gas, double time, Domain& domain) {
     if (is_wall(gas.edges[s].kind)) continue_column(gas, gas.cells.sides[s]);
 }
 
+namespace {
+
+/// In a mirror faces tilt the other way.
+void mirror_tilts(Gas& gas) {
+  const int D = gas.dimensions();
+  for (const GhostSide& side : gas.cells.sides) {
+    if (!is_wall(gas.edges[static_cast<std::size_t>(2 * side.axis + (side.inward > 0 ? 0 : 1))].kind)) continue;
+    for (int across = 0; across < D; ++across)
+      for (int towards = 0; towards < D; ++towards)
+        if ((across == side.axis) != (towards == side.axis))
+          for (const Ghost& g : side.mirrored) {
+            double& tilt = gas.half_step.cell(index(g.block), HalfStep::area(D, across, towards), g.cell);
+            tilt = -tilt;
+          }
+  }
+}
+
+}  // namespace
+
 void share_half_step(Gas& gas, double dt, Domain& domain) {
   CellSet& set = gas.half_step;
   share(gas.cells, set, domain);
@@ -160,6 +179,7 @@ void share_half_step(Gas& gas, double dt, Domain& domain) {
         change(HalfStep::velocity + static_cast<int>(a), of_velocity, now.velocity[a], beyond.velocity[a]);
     }
   });
+  mirror_tilts(gas);
 }
 
 void share_moved(Gas& gas, int axis, double time, const Vector& moved, Domain& domain) {

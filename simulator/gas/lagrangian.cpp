@@ -8,6 +8,7 @@
 #include "simulator/gas/fluid_state.hpp"
 #include "simulator/gas/friction.hpp"
 #include "simulator/gas/implicit.hpp"
+#include "simulator/gas/moving_faces.hpp"
 #include "simulator/gas/own_blocks.hpp"
 #include "simulator/gas/passages.hpp"
 #include "simulator/gas/transport.hpp"
@@ -36,9 +37,11 @@ void half_step_of(Gas& gas, std::size_t block, double dt) {
         next.fetch(gas.primitive, Primitive::velocity + axis, 1, c - ring);
         next.fetch_to_write(gas.half_step, HalfStep::pressure, 1, c - ring);
         next.fetch_to_write(gas.half_step, HalfStep::velocity + axis, 1, c - ring);
+        if constexpr (D > 1) ask_for_gains<D>(gas, next, axis, c - ring);
         change[c] = (-0.5 * dt / h) * pressure_slope(pressure, density, c, half_head) / density[c];
       }
       store<D>(gas.half_step, block, HalfStep::velocity + axis, axis, n, change);
+      if constexpr (D > 1) note_gains<D>(gas, block, axis, n, dt);
       for (std::size_t c = ring; c < ring + line; ++c) change[c] = slope(velocity, c);
       // The sum over the axes, in the order of the axes; through the pressure's place.
       if (axis == 0) {
@@ -59,6 +62,7 @@ void half_step_of(Gas& gas, std::size_t block, double dt) {
       divergence[k] += Lanes::load(cells.metric.widening.data() + first) * gas.primitive.at(block, Primitive::velocity)[k];
     }
     gas.half_step.at(block, HalfStep::pressure)[k] = -0.5 * dt * rho * c * c * divergence[k];
+    if constexpr (D > 1) find_gains<D>(gas, block, k, -cells.cell_size * divergence[k] / max(c, Lanes(1e-300)));
   }
 }
 
@@ -130,6 +134,7 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, double dt, Fac
       next.fetch(gas.primitive, 0, Primitive::count(D), f);
       next.fetch(gas.half_step, HalfStep::pressure, 1, f);
       next.fetch(gas.half_step, HalfStep::velocity + axis, 1, f);
+      if constexpr (D > 1) next.fetch(gas.half_step, HalfStep::area(D, axis, 0), D, f);
     }
     const Star found = face(f, gas.least_mach);
     face_velocity[f] = found.velocity, face_pressure[f] = found.pressure;
@@ -180,6 +185,29 @@ CellSet& heat_of_friction(Gas& gas) {
   return gas.next;
 }
 
+/// Adds what comes through the faces of a pencil from their high sides to a quantity of its cells.
+template <int D>
+void add_through(Gas& gas, std::size_t block, int axis, int n, int quantity, const FacePencil& through) {
+  Pencil values;
+  load_own<D>(gas.moved, block, quantity, axis, n, values);
+  for (std::size_t f = 0; f < line; ++f) values[ring + f] += through[f + 1] - through[f];
+  store<D>(gas.moved, block, quantity, axis, n, values);
+}
+/// The same with impulses (N s) along the faces, which are booked.
+template <int D>
+void push_along_faces(Gas& gas, std::size_t block, int axis, int n, const FacePencil (&push)[D]) {
+  for (int a = 0; a < D; ++a) {
+    if (a == axis) continue;
+    add_through<D>(gas, block, axis, n, Content::momentum + a, push[a]);
+  }
+  for_each_passage(gas, block, axis, n, [&](Passage& passage, double sign, std::uint8_t lanes) {
+    const auto f = static_cast<std::size_t>(passage.face);
+    for (int l = 0; l < 8; ++l)
+      for (int a = 0; a < D && (lanes >> l & 1); ++a)
+        if (a != axis) passage.step.momentum[static_cast<std::size_t>(a)] -= sign * push[a][f][l];
+  });
+}
+
 /// Friction between the rows of cells that a shock runs along.
 template <int D>
 void hold_rows_together(Gas& gas, std::size_t block, int axis, int n, double dt, const FaceStates<D>& s,
@@ -214,25 +242,53 @@ void hold_rows_together(Gas& gas, std::size_t block, int axis, int n, double dt,
       heat[c] += 0.5 * (push[a][f] * (u[c] - u[c - 1]) + push[a][f + 1] * (u[c + 1] - u[c]) - pushed * pushed / mass);
     }
   }
-  const auto add = [&](int quantity, const FacePencil& through) {
-    Pencil values;
-    load_own<D>(gas.moved, block, quantity, axis, n, values);
-    for (std::size_t f = 0; f < line; ++f) values[ring + f] += through[f + 1] - through[f];
-    store<D>(gas.moved, block, quantity, axis, n, values);
-  };
   if (several) store<D>(heat_of_friction(gas), block, Content::energy, axis, n, heat);
-  add(Content::energy, energy);
-  for (int a = 0; a < D; ++a)
-    if (a != axis) add(Content::momentum + a, push[a]);
+  add_through<D>(gas, block, axis, n, Content::energy, energy);
+  push_along_faces<D>(gas, block, axis, n, push);
   for_each_passage(gas, block, axis, n, [&](Passage& passage, double sign, std::uint8_t lanes) {
-    const auto f = static_cast<std::size_t>(passage.face);
-    for (int l = 0; l < 8; ++l) {
-      if (!(lanes >> l & 1)) continue;
-      for (int a = 0; a < D; ++a)
-        if (a != axis) passage.step.momentum[static_cast<std::size_t>(a)] -= sign * push[a][f][l];
-      passage.step.energy -= sign * energy[f][l];
-    }
+    for (int l = 0; l < 8; ++l)
+      if (lanes >> l & 1) passage.step.energy -= sign * energy[static_cast<std::size_t>(passage.face)][l];
   });
+}
+
+/// What the faces of a pencil gain on their way: none next to cells that do without slopes, nor where a fan opens, which lets
+/// out what passes the old place of its face.
+template <int D>
+FaceGain<D> gain_of_faces(const Gas& gas, std::size_t block, int axis, int n, const FaceStates<D>& s) {
+  FaceGain<D> gain(gas, block, axis, n);
+  for (std::size_t f = 0; gas.careful && f < line_faces; ++f) gain.forget(f, s.plain[ring + f - 1] + s.plain[ring + f] > 0.0);
+  for (auto fan = gas.fans[block].rbegin(); fan != gas.fans[block].rend() && fan->axis == axis && fan->pencil == n; ++fan)
+    gain.forget(static_cast<std::size_t>(fan->face), fan->opens);
+  return gain;
+}
+
+/// Impulse (N s) of the pressure along a pencil. That on the sides of a widening cell is that of the mean of its two faces.
+void push_on_sides(const FacePencil& area, const FacePencil& pressure, double dt, Pencil& momentum) {
+  for (std::size_t f = 0; f < line; ++f)
+    momentum[ring + f] -= dt * (0.5 * (area[f] + area[f + 1])) * (pressure[f + 1] - pressure[f]);
+}
+
+/// What faces that grow and tilt on their way add to what they sweep (m^3/s), to the force on them along the pencil (N) and to
+/// the momentum of the cells (N s).
+template <int D>
+void grow_faces(Gas& gas, std::size_t block, int axis, int n, double dt, const FaceStates<D>& s, const PencilMetric& metric,
+                const FacePencil& face_velocity, const FacePencil& face_pressure, FacePencil& flow, FacePencil& force,
+                Pencil& momentum) {
+  const FaceGain<D> gain = gain_of_faces<D>(gas, block, axis, n, s);
+  FacePencil grown, along[D];  // Pa, N s
+  for (std::size_t f = 0; f < line_faces; ++f) {
+    const std::size_t l = ring + f - 1, r = ring + f;
+    grown[f] = gain.along[axis][f] * face_pressure[f], force[f] += metric.area[f] * grown[f];
+    Lanes faster = gain.along[axis][f] * face_velocity[f];
+    for (int b = 0; b < D; ++b) {
+      if (b == axis) continue;
+      faster += gain.along[b][f] * (0.5 * (s.velocity[b][l] + s.velocity[b][r]));
+      along[b][f] = (-dt * metric.area[f]) * (gain.along[b][f] * face_pressure[f]);
+    }
+    flow[f] += metric.area[f] * faster;
+  }
+  push_on_sides(metric.area, grown, dt, momentum);
+  push_along_faces<D>(gas, block, axis, n, along);
 }
 
 template <int D>
@@ -260,27 +316,29 @@ bool move(Gas& gas, std::size_t block, double dt) {
       PencilMetric metric;
       load_metric<D>(cells, block, axis, n, metric);
       if (!gas.implicit) note_fans<D>(gas, block, axis, n, dt, states, metric, face_velocity, face_pressure);
-      Lanes* swept = gas.swept_faces(block, axis, n);
+      FacePencil area, force, power;  // m^2, N, W: area on the way; what the pressure does along the axis
       for (std::size_t f = 0; f < line_faces; ++f) {
-        if (axis == 0) metric.area[f] = area_on_the_way(cells, metric.area[f], dt * face_velocity[f]);
-        flow[f] = metric.area[f] * face_velocity[f];
-        swept[f] = dt * flow[f];
+        area[f] = axis == 0 ? area_on_the_way(cells, metric.area[f], dt * face_velocity[f]) : metric.area[f];
+        flow[f] = area[f] * face_velocity[f], force[f] = area[f] * face_pressure[f];
       }
-      // The impulse of the pressure on the sides of a widening cell is that of the mean of its two faces.
       Pencil room, momentum, energy;
       load_own<D>(gas.moved, block, Content::room, axis, n, room);
       load_own<D>(gas.moved, block, Content::energy, axis, n, energy);
       load_own<D>(gas.moved, block, Content::momentum + axis, axis, n, momentum);
+      push_on_sides(area, face_pressure, dt, momentum);
+      if constexpr (D > 1)
+        if (!gas.implicit)
+          grow_faces<D>(gas, block, axis, n, dt, states, metric, face_velocity, face_pressure, flow, force, momentum);
+      Lanes* swept = gas.swept_faces(block, axis, n);
+      for (std::size_t f = 0; f < line_faces; ++f) swept[f] = dt * flow[f], power[f] = face_pressure[f] * flow[f];
       for (std::size_t f = 0; f < line; ++f) {
-        const std::size_t c = ring + f;
-        room[c] += dt * (flow[f + 1] - flow[f]);
-        momentum[c] -= dt * (0.5 * (metric.area[f] + metric.area[f + 1])) * (face_pressure[f + 1] - face_pressure[f]);
-        energy[c] -= dt * (face_pressure[f + 1] * flow[f + 1] - face_pressure[f] * flow[f]);
+        room[ring + f] += dt * (flow[f + 1] - flow[f]);
+        energy[ring + f] -= dt * (power[f + 1] - power[f]);
       }
       store<D>(gas.moved, block, Content::room, axis, n, room);
       store<D>(gas.moved, block, Content::momentum + axis, axis, n, momentum);
       store<D>(gas.moved, block, Content::energy, axis, n, energy);
-      book_pressure(gas, block, axis, n, dt, face_pressure, flow, metric);
+      book_pressure(gas, block, axis, n, dt, force, power);
       if constexpr (D > 1)
         if (rubs) hold_rows_together<D>(gas, block, axis, n, dt, states, metric);
     }

@@ -23,16 +23,15 @@ void for_each_passage(Gas& gas, std::size_t block, int axis, int n, F&& f) {
   }
 }
 
-/// Impulse and work of the pressure on the sides of the box.
+/// Impulse and work of the pressure on the sides of the box, by its force along the axis (N) and its power (W).
 template <class FaceValues>
-void book_pressure(Gas& gas, std::size_t block, int axis, int n, double dt, const FaceValues& pressure, const FaceValues& flow,
-                   const PencilMetric& metric) {
+void book_pressure(Gas& gas, std::size_t block, int axis, int n, double dt, const FaceValues& force, const FaceValues& power) {
   for_each_passage(gas, block, axis, n, [&](Passage& passage, double sign, std::uint8_t lanes) {
     const auto f = static_cast<std::size_t>(passage.face);
     for (int l = 0; l < 8; ++l) {
       if (!(lanes >> l & 1)) continue;
-      passage.step.momentum[static_cast<std::size_t>(axis)] += sign * dt * metric.area[f][l] * pressure[f][l];
-      passage.step.energy += sign * dt * pressure[f][l] * flow[f][l];
+      passage.step.momentum[static_cast<std::size_t>(axis)] += sign * dt * force[f][l];
+      passage.step.energy += sign * dt * power[f][l];
     }
   });
 }

@@ -162,10 +162,10 @@ struct GasSpring {
   void advance(double dt) {
     const GasSpring start = *this;
     double moved = 0.0, sped = 0.0;
-    for (const auto& [reach, weight] : {std::pair{0.5, 1.0}, {0.5, 2.0}, {1.0, 2.0}, {0.0, 1.0}}) {
+    for (const auto& [way, weight] : {std::pair{0.5, 1.0}, {0.5, 2.0}, {1.0, 2.0}, {0.0, 1.0}}) {
       const double v = velocity, a = (pressure_below() - pressure_above()) / areal_mass;
       moved += weight * v, sped += weight * a;
-      position = start.position + reach * dt * v, velocity = start.velocity + reach * dt * a;
+      position = start.position + way * dt * v, velocity = start.velocity + way * dt * a;
     }
     position = start.position + dt * moved / 6.0, velocity = start.velocity + dt * sped / 6.0;
   }
