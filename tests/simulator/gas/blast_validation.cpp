@@ -52,7 +52,7 @@ TEST(BlastOfAKilogramOfTnt, StatesWhatTheTableSays) {
 /// front goes with the root of the peak, so as much is allowed of the arrival as they differ in the peak. They differ by 10, 49
 /// and 7 % in the impulse and by factors of 3.8, 3.4 and 1.6 in the duration. Nothing burns in the air here, as the products of
 /// TNT do: they hold up the pressure behind the front. So both are to lie below the higher of the two and above three quarters
-/// (half) of the lower.
+/// (half) of the lower; no source gives these two parts, they were chosen when the results were known.
 TEST(BlastOfAKilogramOfTnt, IsAmongWhatIsPublished) {
   const Published published;
   const Case c = shipped_case("blast_tnt_sphere", {"output.figures=false"});

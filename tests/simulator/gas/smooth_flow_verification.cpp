@@ -25,7 +25,7 @@ using set_up::Stepper;
 TEST(IsentropicVortex, ReturnsWithSecondOrder) {
   const IsentropicVortex vortex;
   std::vector<double> errors;
-  for (const int cells : {32, 64, 128}) {
+  for (const int cells : {32, 64, 128, 256}) {
     const auto domain = single_process();
     Gas gas = set_up::box(Geometry::plane, vortex.period / cells, {-cells / 2, -cells / 2, 0}, {cells / 2, cells / 2, 0},
                           {set_up::ideal_gas()}, *domain);
@@ -41,8 +41,10 @@ TEST(IsentropicVortex, ReturnsWithSecondOrder) {
     errors.push_back(std::sqrt(square));
     RecordProperty("density_" + std::to_string(cells), std::to_string(errors.back()));
   }
-  EXPECT_GE(std::log2(errors[1] / errors[2]), 1.9) << errors[0] << ", " << errors[1] << ", " << errors[2];
-  // With faces that neither grow nor tilt the error of 128 cells is 1.13e-3, most of it of first order in the step.
+  // With faces that neither grow nor tilt the errors of 128 and 256 cells are 1.13e-3 and 0.52e-3, most of them of first order
+  // in the step.
+  for (const std::size_t n : {1u, 2u})
+    EXPECT_GE(std::log2(errors[n] / errors[n + 1]), 1.9) << errors[n] << ", " << errors[n + 1];
   EXPECT_LT(errors[2], 0.9e-3);
 }
 
