@@ -96,99 +96,149 @@ void cool_traces(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shar
   }
 }
 
-struct Largest {
+/// Eight cells side by side, as wholes.
+template <int D>
+struct Pack {
+  std::size_t block;
+  int number;  // in the block
+  std::uint8_t inside;
+  LanesMask active;
+  Lanes room, mass, density, velocity[D];   // m^3, kg, kg/m^3, m/s
+  Lanes internal;                           // J
+  Lanes pressure, bulk_modulus, gruneisen;  // Pa, Pa, 1
+
+  template <class AnyCellSet>
+  auto& at(AnyCellSet& set, int quantity) const {
+    return set.at(block, quantity)[number];
+  }
+  void put(CellSet& set, int quantity, const Lanes& value) const {
+    Lanes& old = at(set, quantity);
+    old = select(active, value, old);
+  }
+};
+
+/// What the cells hold, by volume and by mass.
+template <int D>
+void find_means(const Gas& gas, Pack<D>& p) {
+  p.room = p.at(gas.content, Content::room), p.mass = Lanes(0.0);
+  for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r)
+    p.mass += p.at(gas.content, Content::fluids(D) + r * gas.fluid_quantities() + Content::mass);
+  p.density = p.mass / p.room;
+  Lanes kinetic(0.0);
+  for (int a = 0; a < D; ++a) {
+    const Lanes momentum = p.at(gas.content, Content::momentum + a);
+    p.velocity[a] = momentum / p.mass, kinetic += 0.5 * momentum * p.velocity[a];
+  }
+  p.internal = p.at(gas.content, Content::energy) - kinetic;
+}
+
+template <int D>
+void find_pressure(const Fluid& fluid, Pack<D>& p) {
+  const auto at = slopes_of(fluid.equation_of_state, p.density, Lanes(p.internal / p.mass));
+  p.pressure = at.pressure, p.gruneisen = at.per_energy / p.density;
+  const Lanes least = Lanes(least_bulk_modulus(fluid.equation_of_state, 1.0)) * p.density;
+  p.bulk_modulus = max(Lanes(p.density * at.per_density + p.pressure * p.gruneisen), least);
+}
+
+/// The fluids of the cells. Cells that are not of the box hold anything: to look for its pressure can take very long, so the
+/// first fluid fills them, as it usually is.
+template <int D>
+void load_shares(const Gas& gas, const Pack<D>& p, std::vector<FluidShare>& shares) {
+  for (std::size_t r = 0; r < shares.size(); ++r) {
+    const int first = Content::fluids(D) + 3 * static_cast<int>(r);
+    const Fluid& fluid = gas.fluids[r];
+    const double usual = r == 0 ? fluid.usual_density : 0.0;
+    const auto load = [&](int quantity, double beyond) {
+      return select(p.active, p.at(gas.content, first + quantity), Lanes(beyond));
+    };
+    shares[r].mass = load(Content::mass, usual), shares[r].volume = load(Content::volume, r == 0 ? 1.0 : 0.0);
+    shares[r].internal = load(Content::internal, usual * fluid.usual_energy);
+  }
+}
+
+/// Bulk modulus and Gruneisen coefficient of the cells, and what of their compressibility each fluid has.
+template <int D>
+void find_compressibility(Gas& gas, Pack<D>& p, const std::vector<FluidShare>& shares) {
+  Lanes compliance(0.0);
+  p.gruneisen = Lanes(0.0);
+  for (const FluidShare& s : shares) {
+    compliance += select(is_present(s.volume, s.mass, p.room), s.volume / s.bulk_modulus, Lanes(0.0));
+    p.gruneisen += s.volume / p.room * s.gruneisen;
+  }
+  p.bulk_modulus = p.room / compliance;
+  // The square of a fluid's impedance over the cell's is its part of the mass over that of the compressibility.
+  Lanes softness(0.0);
+  for (std::size_t r = 0; r < shares.size(); ++r) {
+    const FluidShare& s = shares[r];
+    const LanesMask present = is_present(s.volume, s.mass, p.room);
+    Lanes& share = p.at(gas.primitive, Primitive::share(D, static_cast<int>(r)));
+    share = select(present, s.volume / (s.bulk_modulus * compliance), Lanes(0.0));
+    softness += sqrt(share * s.mass / p.mass);
+  }
+  p.at(gas.primitive, Primitive::softness(D, static_cast<int>(shares.size()))) = min(softness, Lanes(1.0));
+}
+
+/// The same of several fluids, which come to one pressure; `fastest`: m/s, of the waves of the step before.
+template <int D>
+void find_pressure(Gas& gas, Pack<D>& p, std::vector<FluidShare>& shares, double fastest) {
+  load_shares(gas, p, shares);
+  // Where velocities have mixed, kinetic energy has become heat.
+  Lanes heat = select(p.active, p.internal, shares[0].internal);
+  for (const FluidShare& s : shares) heat -= s.internal;
+  share_heat(gas.fluids, shares, heat);
+  warm_cold_fluids(gas.fluids, shares);
+  cool_traces(gas.fluids, shares, fastest);
+  p.pressure = equilibrate(gas.fluids, shares, select(p.active, p.room, Lanes(1.0)));
+  for (std::size_t r = 0; r < shares.size(); ++r) {
+    const int first = Content::fluids(D) + 3 * static_cast<int>(r);
+    p.put(gas.content, first + Content::volume, shares[r].volume);
+    p.put(gas.content, first + Content::internal, shares[r].internal);
+  }
+  find_compressibility(gas, p, shares);
+}
+
+/// 1/s; see Gas.
+struct Rates {
   double wave = 0.0, motion = 0.0;
+  /// A state that is no state must not pass for one without waves.
+  void note(double other_wave, double other_motion) {
+    wave = other_wave < wave ? wave : other_wave;
+    motion = std::max(motion, other_motion);
+  }
 };
 
 template <int D>
-Largest equilibrium_of(Gas& gas, std::size_t block) {
-  const std::size_t fluids = gas.fluids.size();
-  Largest largest;
-  std::vector<FluidShare> shares(fluids);
+void put_primitives(Gas& gas, const Pack<D>& p, Rates& largest) {
+  const Lanes sound = sqrt(p.bulk_modulus / p.density);
+  p.put(gas.primitive, Primitive::density, p.density), p.put(gas.primitive, Primitive::pressure, p.pressure);
+  p.put(gas.primitive, Primitive::sound_speed, sound), p.put(gas.primitive, Primitive::gruneisen, p.gruneisen);
+  Lanes speed(0.0), motion(0.0);
+  for (int a = 0; a < D; ++a) {
+    p.put(gas.primitive, Primitive::velocity + a, p.velocity[a]);
+    speed += abs(p.velocity[a]), motion = max(motion, abs(p.velocity[a]));
+  }
   const double inverse_cell_size = 1.0 / gas.cells.cell_size;
+  const Lanes wave = (speed + static_cast<double>(D) * sound) * inverse_cell_size;
+  for (int l = 0; l < 8; ++l)
+    if (p.inside >> l & 1) largest.note(wave[l], motion[l] * inverse_cell_size);
+}
+
+template <int D>
+Rates find_equilibrium_of(Gas& gas, std::size_t block) {
+  Rates largest;
+  std::vector<FluidShare> shares(gas.fluids.size());
   const double fastest =
       gas.wave_rate > 0.0 ? gas.wave_rate * gas.cells.cell_size : 1e150;  // nobody knows before the first step
   for (int k = 0; k < gas.cells.packs(); ++k) {
-    const std::uint8_t inside = cells_inside(gas.cells, block, k);
-    if (inside == 0) continue;
-    const LanesMask active = lanes_of(inside);
-    const Lanes room = gas.content.at(block, Content::room)[k];
-    Lanes mass(0.0);
-    for (std::size_t r = 0; r < fluids; ++r)
-      mass += shares[r].mass =
-          gas.content.at(block, Content::fluids(D) + static_cast<int>(r) * gas.fluid_quantities() + Content::mass)[k];
-    const Lanes density = mass / room;
-    Lanes u[D], speed(0.0), motion(0.0), kinetic(0.0);
-    for (int a = 0; a < D; ++a) {
-      const Lanes p = gas.content.at(block, Content::momentum + a)[k];
-      u[a] = p / mass, kinetic += 0.5 * p * u[a];
-      speed += abs(u[a]), motion = max(motion, abs(u[a]));
-    }
-    const Lanes internal = gas.content.at(block, Content::energy)[k] - kinetic;
-    Lanes pressure, bulk, gruneisen(0.0);
-    if (fluids == 1) {
-      const auto at = slopes_of(gas.fluids[0].equation_of_state, density, Lanes(internal / mass));
-      pressure = at.pressure, gruneisen = at.per_energy / density;
-      bulk = density * at.per_density + pressure * gruneisen;
-      bulk = max(bulk, Lanes(least_bulk_modulus(gas.fluids[0].equation_of_state, 1.0)) * density);
-    } else {
-      for (std::size_t r = 0; r < fluids; ++r) {
-        const int first = Content::fluids(D) + 3 * static_cast<int>(r);
-        shares[r].volume = gas.content.at(block, first + Content::volume)[k];
-        shares[r].internal = gas.content.at(block, first + Content::internal)[k];
-      }
-      // Cells that are not of the box hold anything: to look for its pressure can take very long.
-      const Lanes space = select(active, room, Lanes(1.0));
-      for (std::size_t r = 0; r < fluids; ++r) {
-        const Fluid& fluid = gas.fluids[r];
-        const double here = r == 0 ? fluid.usual_density : 0.0;
-        shares[r].mass = select(active, shares[r].mass, Lanes(here));
-        shares[r].volume = select(active, shares[r].volume, Lanes(r == 0 ? 1.0 : 0.0));
-        shares[r].internal = select(active, shares[r].internal, Lanes(here * fluid.usual_energy));
-      }
-      // Where velocities have mixed, kinetic energy has become heat.
-      Lanes heat = select(active, internal, shares[0].internal);
-      for (std::size_t r = 0; r < fluids; ++r) heat -= shares[r].internal;
-      share_heat(gas.fluids, shares, heat);
-      warm_cold_fluids(gas.fluids, shares);
-      cool_traces(gas.fluids, shares, fastest);
-      pressure = equilibrate(gas.fluids, shares, space);
-      Lanes compliance(0.0);
-      for (std::size_t r = 0; r < fluids; ++r) {
-        const int first = Content::fluids(D) + 3 * static_cast<int>(r);
-        Lanes& volume = gas.content.at(block, first + Content::volume)[k];
-        Lanes& energy = gas.content.at(block, first + Content::internal)[k];
-        volume = select(active, shares[r].volume, volume), energy = select(active, shares[r].internal, energy);
-        const LanesMask present = is_present(shares[r].volume, shares[r].mass, room);
-        compliance += select(present, shares[r].volume / shares[r].bulk_modulus, Lanes(0.0));
-        gruneisen += shares[r].volume / room * shares[r].gruneisen;
-      }
-      // The square of a fluid's impedance over the cell's is its part of the mass over that of the compressibility.
-      Lanes softness(0.0);
-      for (std::size_t r = 0; r < fluids; ++r) {
-        Lanes& share = gas.primitive.at(block, Primitive::share(D, static_cast<int>(r)))[k];
-        const LanesMask present = is_present(shares[r].volume, shares[r].mass, room);
-        share = select(present, shares[r].volume / (shares[r].bulk_modulus * compliance), Lanes(0.0));
-        softness += sqrt(share * shares[r].mass / mass);
-      }
-      gas.primitive.at(block, Primitive::softness(D, static_cast<int>(fluids)))[k] = min(softness, Lanes(1.0));
-      bulk = room / compliance;
-    }
-    const Lanes sound = sqrt(bulk / density);
-    const auto put = [&](int quantity, const Lanes& value) {
-      Lanes& at = gas.primitive.at(block, quantity)[k];
-      at = select(active, value, at);
-    };
-    put(Primitive::density, density), put(Primitive::pressure, pressure), put(Primitive::sound_speed, sound);
-    put(Primitive::gruneisen, gruneisen);
-    for (int a = 0; a < D; ++a) put(Primitive::velocity + a, u[a]);
-    const Lanes wave = (speed + static_cast<double>(D) * sound) * inverse_cell_size;
-    for (int l = 0; l < 8; ++l) {
-      if (!(inside >> l & 1)) continue;
-      // A state that is no state must not pass for one without waves.
-      largest.wave = wave[l] < largest.wave ? largest.wave : wave[l];
-      largest.motion = std::max(largest.motion, motion[l] * inverse_cell_size);
-    }
+    Pack<D> p;
+    p.block = block, p.number = k, p.inside = cells_inside(gas.cells, block, k), p.active = lanes_of(p.inside);
+    if (p.inside == 0) continue;
+    find_means(gas, p);
+    if (shares.size() == 1)
+      find_pressure(gas.fluids[0], p);
+    else
+      find_pressure(gas, p, shares, fastest);
+    put_primitives(gas, p, largest);
   }
   return largest;
 }
@@ -224,14 +274,11 @@ bool all_cells_hold_heat(Gas& gas, const CellSet& content) {
 }
 
 void find_equilibrium(Gas& gas, Domain& domain) {
-  std::vector<Largest> largest(gas.cells.mine.size());
-  for_each_own_block(gas, [&](auto D, std::size_t i, std::size_t block) { largest[i] = equilibrium_of<D()>(gas, block); });
-  gas.wave_rate = gas.motion_rate = 0.0;
-  for (const Largest& l : largest) {
-    gas.wave_rate = l.wave < gas.wave_rate ? gas.wave_rate : l.wave;
-    gas.motion_rate = std::max(gas.motion_rate, l.motion);
-  }
-  gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
+  std::vector<Rates> rates(gas.cells.mine.size());
+  for_each_own_block(gas, [&](auto D, std::size_t i, std::size_t block) { rates[i] = find_equilibrium_of<D()>(gas, block); });
+  Rates largest;
+  for (const Rates& r : rates) largest.note(r.wave, r.motion);
+  gas.wave_rate = domain.maximum(largest.wave), gas.motion_rate = domain.maximum(largest.motion);
 }
 
 }  // namespace brisance::simulator::gas
