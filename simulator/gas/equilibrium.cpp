@@ -103,9 +103,9 @@ struct Pack {
   int number;  // in the block
   std::uint8_t inside;
   LanesMask active;
-  Lanes room, mass, density, velocity[D];   // m^3, kg, kg/m^3, m/s
-  Lanes internal;                           // J
-  Lanes pressure, bulk_modulus, gruneisen;  // Pa, Pa, 1
+  Lanes cell_volume, mass, density, velocity[D];  // m^3, kg, kg/m^3, m/s
+  Lanes internal;                                 // J
+  Lanes pressure, bulk_modulus, gruneisen;        // Pa, Pa, 1
 
   template <class AnyCellSet>
   auto& at(AnyCellSet& set, int quantity) const {
@@ -120,10 +120,9 @@ struct Pack {
 /// What the cells hold, by volume and by mass.
 template <int D>
 void find_means(const Gas& gas, Pack<D>& p) {
-  p.room = p.at(gas.content, Content::room), p.mass = Lanes(0.0);
-  for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r)
-    p.mass += p.at(gas.content, Content::fluids(D) + r * gas.fluid_quantities() + Content::mass);
-  p.density = p.mass / p.room;
+  p.cell_volume = p.at(gas.content, Content::cell_volume), p.mass = Lanes(0.0);
+  for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r) p.mass += p.at(gas.content, Content::of(D, r, Content::mass));
+  p.density = p.mass / p.cell_volume;
   Lanes kinetic(0.0);
   for (int a = 0; a < D; ++a) {
     const Lanes momentum = p.at(gas.content, Content::momentum + a);
@@ -145,11 +144,10 @@ void find_pressure(const Fluid& fluid, Pack<D>& p) {
 template <int D>
 void load_shares(const Gas& gas, const Pack<D>& p, std::vector<FluidShare>& shares) {
   for (std::size_t r = 0; r < shares.size(); ++r) {
-    const int first = Content::fluids(D) + 3 * static_cast<int>(r);
     const Fluid& fluid = gas.fluids[r];
     const double usual = r == 0 ? fluid.usual_density : 0.0;
     const auto load = [&](int quantity, double beyond) {
-      return select(p.active, p.at(gas.content, first + quantity), Lanes(beyond));
+      return select(p.active, p.at(gas.content, Content::of(D, r, quantity)), Lanes(beyond));
     };
     shares[r].mass = load(Content::mass, usual), shares[r].volume = load(Content::volume, r == 0 ? 1.0 : 0.0);
     shares[r].internal = load(Content::internal, usual * fluid.usual_energy);
@@ -162,20 +160,20 @@ void find_compressibility(Gas& gas, Pack<D>& p, const std::vector<FluidShare>& s
   Lanes compliance(0.0);
   p.gruneisen = Lanes(0.0);
   for (const FluidShare& s : shares) {
-    compliance += select(is_present(s.volume, s.mass, p.room), s.volume / s.bulk_modulus, Lanes(0.0));
-    p.gruneisen += s.volume / p.room * s.gruneisen;
+    compliance += select(is_present(s.volume, s.mass, p.cell_volume), s.volume / s.bulk_modulus, Lanes(0.0));
+    p.gruneisen += s.volume / p.cell_volume * s.gruneisen;
   }
-  p.bulk_modulus = p.room / compliance;
+  p.bulk_modulus = p.cell_volume / compliance;
   // The square of a fluid's impedance over the cell's is its part of the mass over that of the compressibility.
-  Lanes softness(0.0);
+  Lanes impedance_ratio(0.0);
   for (std::size_t r = 0; r < shares.size(); ++r) {
     const FluidShare& s = shares[r];
-    const LanesMask present = is_present(s.volume, s.mass, p.room);
+    const LanesMask present = is_present(s.volume, s.mass, p.cell_volume);
     Lanes& share = p.at(gas.primitive, Primitive::share(D, static_cast<int>(r)));
     share = select(present, s.volume / (s.bulk_modulus * compliance), Lanes(0.0));
-    softness += sqrt(share * s.mass / p.mass);
+    impedance_ratio += sqrt(share * s.mass / p.mass);
   }
-  p.at(gas.primitive, Primitive::softness(D, static_cast<int>(shares.size()))) = min(softness, Lanes(1.0));
+  p.at(gas.primitive, Primitive::impedance_ratio(D, static_cast<int>(shares.size()))) = min(impedance_ratio, Lanes(1.0));
 }
 
 /// The same of several fluids, which come to one pressure; `fastest`: m/s, of the waves of the step before.
@@ -188,11 +186,10 @@ void find_pressure(Gas& gas, Pack<D>& p, std::vector<FluidShare>& shares, double
   share_heat(gas.fluids, shares, heat);
   warm_cold_fluids(gas.fluids, shares);
   cool_traces(gas.fluids, shares, fastest);
-  p.pressure = equilibrate(gas.fluids, shares, select(p.active, p.room, Lanes(1.0)));
+  p.pressure = equilibrate(gas.fluids, shares, select(p.active, p.cell_volume, Lanes(1.0)));
   for (std::size_t r = 0; r < shares.size(); ++r) {
-    const int first = Content::fluids(D) + 3 * static_cast<int>(r);
-    p.put(gas.content, first + Content::volume, shares[r].volume);
-    p.put(gas.content, first + Content::internal, shares[r].internal);
+    p.put(gas.content, Content::of(D, r, Content::volume), shares[r].volume);
+    p.put(gas.content, Content::of(D, r, Content::internal), shares[r].internal);
   }
   find_compressibility(gas, p, shares);
 }
@@ -255,9 +252,9 @@ bool all_cells_hold_heat(Gas& gas, const CellSet& content) {
       const auto at = [&](int quantity) { return content.at(block, quantity)[k]; };
       Lanes mass(0.0), square(0.0), cold(0.0);
       for (int r = 0; r < fluids; ++r) {
-        const int first = Content::fluids(D) + r * gas.fluid_quantities();
         const Fluid& fluid = gas.fluids[static_cast<std::size_t>(r)];
-        const Lanes own = at(first + Content::mass), volume = at(fluids == 1 ? Content::room : first + Content::volume);
+        const Lanes own = at(Content::of(D, r, Content::mass)),
+                    volume = at(fluids == 1 ? Content::cell_volume : Content::of(D, r, Content::volume));
         mass += own;
         cold += own * coldest_energy(fluid, Lanes(select(volume > 0.0, own / volume, Lanes(fluid.usual_density))));
       }

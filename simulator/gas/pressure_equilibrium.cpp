@@ -82,15 +82,15 @@ double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares,
 }
 
 /// From the states that the fluids have now. Sets their bulk moduli.
-Search begin_search(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& room) {
+Search begin_search(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& cell_volume) {
   Search s;
   s.fluids.resize(fluids.size());
-  s.space = room, s.lowest = Lanes(1e300), s.highest = Lanes(-1e300);
+  s.space = cell_volume, s.lowest = Lanes(1e300), s.highest = Lanes(-1e300);
   Lanes sum(0.0), weight(0.0), least(-1e300), stiffest(0.0);
   for (std::size_t r = 0; r < fluids.size(); ++r) {
     FluidOnTheWay& f = s.fluids[r];
     const EquationOfState& law = fluids[r].equation_of_state;
-    f.present = is_present(shares[r].volume, shares[r].mass, room);
+    f.present = is_present(shares[r].volume, shares[r].mass, cell_volume);
     s.space -= select(f.present, Lanes(0.0), shares[r].volume);
     f.mass = select(f.present, shares[r].mass, Lanes(0.0));
     f.v0 = f.v = select(f.present, shares[r].volume / shares[r].mass, Lanes(1.0 / fluids[r].usual_density));
@@ -146,11 +146,11 @@ void newton_step(const std::vector<Fluid>& fluids, const std::vector<FluidShare>
 
 /// Whether the fluids fill their space. A trace that any pressure suits hides in the mean that the others have not come to
 /// theirs.
-LanesMask is_filled(const Search& s, const Lanes& room) {
-  constexpr double leak = 1e-9;  // of the room
+LanesMask is_filled(const Search& s, const Lanes& cell_volume) {
+  constexpr double leak = 1e-9;  // of the cell
   Lanes unfilled = s.space;
   for (const FluidOnTheWay& f : s.fluids) unfilled -= f.mass * f.v;
-  return abs(unfilled) <= leak * room;
+  return abs(unfilled) <= leak * cell_volume;
 }
 
 /// The work of the fluids that are present on their way, where they have come to its end.
@@ -171,7 +171,7 @@ Lanes energy_of_present(const Search& s, const std::vector<FluidShare>& shares) 
 }
 
 /// What rounding has left over of the volume and of the energy goes to the fluid with most volume.
-void give_rest_to_largest(const Search& s, std::vector<FluidShare>& shares, const Lanes& room, const Lanes& energy) {
+void give_rest_to_largest(const Search& s, std::vector<FluidShare>& shares, const Lanes& cell_volume, const Lanes& energy) {
   Lanes largest(0.0), volumes(0.0);
   for (const FluidShare& share : shares) volumes += share.volume, largest = max(largest, share.volume);
   const Lanes rest = energy - energy_of_present(s, shares);
@@ -179,7 +179,7 @@ void give_rest_to_largest(const Search& s, std::vector<FluidShare>& shares, cons
   for (FluidShare& share : shares) {
     const LanesMask most_of_it = (share.volume == largest) & !given;
     given |= most_of_it;
-    share.volume = select(most_of_it, share.volume + (room - volumes), share.volume);
+    share.volume = select(most_of_it, share.volume + (cell_volume - volumes), share.volume);
     share.internal = select(most_of_it, share.internal + rest, share.internal);
   }
 }
@@ -199,7 +199,7 @@ void set_moduli(const std::vector<Fluid>& fluids, const Search& s, std::vector<F
 
 }  // namespace
 
-void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& room, int l) {
+void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& cell_volume, int l) {
   constexpr double bit = 0.1;     // of the volume
   constexpr int most_bits = 100;  // a gas without heat resists nothing; it keeps 3e-5 of its volume
   struct State {
@@ -213,7 +213,7 @@ void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, co
     std::size_t high = n, low = n;
     for (std::size_t r = 0; r < n; ++r) {
       const FluidShare& s = shares[r];
-      state[r].here = is_present(s.volume[l], s.mass[l], room[l]);
+      state[r].here = is_present(s.volume[l], s.mass[l], cell_volume[l]);
       if (!state[r].here) continue;
       const double density = s.mass[l] / s.volume[l];
       const auto at = slopes_of(fluids[r].equation_of_state, density, s.internal[l] / s.mass[l]);
@@ -241,13 +241,13 @@ void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, co
   }
 }
 
-Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& room,
+Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& cell_volume,
                   EquilibriumCount* count) {
-  Search s = begin_search(fluids, shares, room);
+  Search s = begin_search(fluids, shares, cell_volume);
   if (any(s.crushed)) {
     for (int l = 0; l < 8; ++l)
-      if (s.crushed[l]) relax(fluids, shares, room, l);
-    s = begin_search(fluids, shares, room);
+      if (s.crushed[l]) relax(fluids, shares, cell_volume, l);
+    s = begin_search(fluids, shares, cell_volume);
   }
   const Lanes energy = energy_of_present(s, shares);
   constexpr int most_iterations = 15;
@@ -256,15 +256,15 @@ Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare>& sha
       for (int l = 0; l < 8; ++l) count->iterations += s.done[l] ? 0.0 : 1.0;
     newton_step(fluids, shares, s);
   }
-  s.done &= is_filled(s, room);
+  s.done &= is_filled(s, cell_volume);
   if (count) count->cells += 8.0;
   work_against_pressure(s, shares);
   for (int l = 0; l < 8 && !all(s.done); ++l) {
-    if (s.done[l] || !std::isfinite(room[l])) continue;
+    if (s.done[l] || !std::isfinite(cell_volume[l])) continue;
     s.pressure.set(l, bisect(fluids, shares, s, l));
     if (count) count->bisected += 1.0;
   }
-  give_rest_to_largest(s, shares, room, energy);
+  give_rest_to_largest(s, shares, cell_volume, energy);
   set_moduli(fluids, s, shares);
   return s.pressure;
 }

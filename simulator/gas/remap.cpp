@@ -22,14 +22,14 @@ struct SweptPencil {
   Pencil volume, total, momentum[D];      // what the cells hold: m^3, J, kg m/s
   Pencil mass, density, energy;           // kg; kg/m^3; J/m^3, internal
   Pencil velocity[D], velocity_slope[D];  // m/s; the slope from cell to cell
-  Pencil plain;                           // in careful steps
+  Pencil first_order;                     // 1 where a cell does without slopes, if any do
   const Lanes* swept;                     // m^3
   FacePencil dE, dp[D];                   // J, N s
 
   SweptPencil(Gas& gas, std::size_t of_block, int along, int n)
       : block(of_block), axis(along), number(n), swept(gas.swept_faces(of_block, along, n)) {
-    if (gas.careful) load<D>(gas.cells, gas.half_step, block, HalfStep::plain(D), axis, number, plain);
-    load_moved(gas, Content::room, volume);
+    if (gas.any_first_order) load<D>(gas.cells, gas.half_step, block, HalfStep::first_order(D), axis, number, first_order);
+    load_moved(gas, Content::cell_volume, volume);
     load_moved(gas, Content::energy, total);
     for (int a = 0; a < D; ++a) load_moved(gas, Content::momentum + a, momentum[a]);
   }
@@ -80,7 +80,7 @@ template <int D>
 Giving giving_at(const Gas& gas, const SweptPencil<D>& p, std::size_t face) {
   Giving g{ring + face - 1, ring + face, p.swept[face] > 0.0, Lanes(0.0), Lanes(1.0)};
   g.part = abs(p.swept[face]) / g.of(p.volume);
-  if (gas.careful) g.order = select(p.plain[g.low] + p.plain[g.high] > 0.0, Lanes(0.0), Lanes(1.0));
+  if (gas.any_first_order) g.order = select(p.first_order[g.low] + p.first_order[g.high] > 0.0, Lanes(0.0), Lanes(1.0));
   return g;
 }
 
@@ -187,7 +187,7 @@ void exchange(Gas& gas, const SweptPencil<D>& p, int quantity, Pencil& held, con
 /// The same of what all fluids have in common.
 template <int D>
 void exchange_common(Gas& gas, SweptPencil<D>& p) {
-  exchange(gas, p, Content::room, p.volume, p.swept);
+  exchange(gas, p, Content::cell_volume, p.volume, p.swept);
   exchange(gas, p, Content::energy, p.total, p.dE);
   for (int a = 0; a < D; ++a) exchange(gas, p, Content::momentum + a, p.momentum[a], p.dp[a]);
 }
@@ -259,7 +259,7 @@ void let_fans_out(const Gas& gas, SweptPencil<D>& p, FacePencil& dm) {
 
 template <int D>
 [[gnu::flatten]] SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
-  constexpr int mass_at = Content::fluids(D) + Content::mass;
+  constexpr int mass_at = Content::of(D, 0, Content::mass);
   SweepResult result;
   for (int n = 0; n < BlockShape<D>::pencils; ++n) {
     SweptPencil<D> p(gas, block, axis, n);
@@ -289,17 +289,11 @@ struct FluidPencils {
 };
 using Mixture = std::vector<FluidPencils>;
 
-/// First quantity of a fluid's content.
-template <int D>
-int first_of(std::size_t fluid) {
-  return Content::fluids(D) + 3 * static_cast<int>(fluid);
-}
-
 template <int D>
 void load_fluid(const Gas& gas, const SweptPencil<D>& p, std::size_t r, FluidPencils& at) {
-  p.load_moved(gas, first_of<D>(r) + Content::mass, at.mass);
-  p.load_moved(gas, first_of<D>(r) + Content::volume, at.volume);
-  p.load_moved(gas, first_of<D>(r) + Content::internal, at.internal);
+  p.load_moved(gas, Content::of(D, r, Content::mass), at.mass);
+  p.load_moved(gas, Content::of(D, r, Content::volume), at.volume);
+  p.load_moved(gas, Content::of(D, r, Content::internal), at.internal);
   for (std::size_t c = 0; c < reach; ++c) {
     at.present[c] = is_present(at.volume[c], at.mass[c], p.volume[c]);
     at.part[c] = at.volume[c] / p.volume[c];
@@ -422,9 +416,9 @@ template <int D>
     exchange_common(gas, p);
     for (std::size_t r = 0; r < fluids.size(); ++r) {
       FluidPencils& at = fluids[r];
-      exchange(gas, p, first_of<D>(r) + Content::mass, at.mass, at.dm);
-      exchange(gas, p, first_of<D>(r) + Content::volume, at.volume, at.dV);
-      exchange(gas, p, first_of<D>(r) + Content::internal, at.internal, at.dI);
+      exchange(gas, p, Content::of(D, r, Content::mass), at.mass, at.dm);
+      exchange(gas, p, Content::of(D, r, Content::volume), at.volume, at.dV);
+      exchange(gas, p, Content::of(D, r, Content::internal), at.internal, at.dI);
       result.good = nothing_is_overdrawn(gas, p, at) && result.good;
     }
     book(gas, p, [&](std::size_t r) -> const FacePencil& { return fluids[r].dm; });

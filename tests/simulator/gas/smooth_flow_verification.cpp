@@ -111,7 +111,7 @@ TEST(MovingFaces, SweepTheDeterminant) {
     const double exact = 1.0 + moved.dt * trace + moved.dt * moved.dt * minors;
     ASSERT_GT(std::abs(moved.dt * moved.dt * minors), 1e-6);
     moved.for_each_inside([&](const set_up::Cell& c) {
-      ASSERT_NEAR(moved.gas.moved.cell(c.block, Content::room, c.number) / c.volume, exact, 1e-13) << c.index[0];
+      ASSERT_NEAR(moved.gas.moved.cell(c.block, Content::cell_volume, c.number) / c.volume, exact, 1e-13) << c.index[0];
     });
   }
 }
@@ -171,7 +171,7 @@ void expect_gains_of_all_but_the_odd_cell(double odd_pressure, const std::functi
     });
     moved.for_each_inside([&](const set_up::Cell& c) {
       bool alike = true;
-      for (int q = Content::room; q < Content::fluids(D); ++q)
+      for (int q = Content::cell_volume; q < Content::fluids(D); ++q)
         alike = alike && moved.gas.moved.cell(c.block, q, c.number) == without_gains.gas.moved.cell(c.block, q, c.number);
       ASSERT_EQ(alike, is_odd(c.index, D)) << c.index[0] << ", " << c.index[1] << ", " << c.index[2];
     });
@@ -180,9 +180,10 @@ void expect_gains_of_all_but_the_odd_cell(double odd_pressure, const std::functi
 
 TEST(MovingFaces, OfACellWithoutSlopesNeitherGrowNorTilt) {
   expect_gains_of_all_but_the_odd_cell(Moved::pressure, [](Gas& gas) {
-    gas.careful = true;
+    gas.any_first_order = true;
     set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
-      gas.half_step.cell(c.block, HalfStep::plain(gas.dimensions()), c.number) = is_odd(c.index, gas.dimensions()) ? 1.0 : 0.0;
+      gas.half_step.cell(c.block, HalfStep::first_order(gas.dimensions()), c.number) =
+          is_odd(c.index, gas.dimensions()) ? 1.0 : 0.0;
     });
   });
 }
