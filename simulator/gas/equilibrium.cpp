@@ -96,17 +96,33 @@ void cool_traces(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shar
   }
 }
 
-/// Eight cells side by side, as wholes.
+/// What eight cells side by side hold, as wholes.
 template <int D>
 struct Pack {
   std::size_t block;
   int number;  // in the block
   std::uint8_t inside;
-  LanesMask active;
-  Lanes cell_volume, mass, density, velocity[D];  // m^3, kg, kg/m^3, m/s
-  Lanes internal;                                 // J
-  Lanes pressure, bulk_modulus, gruneisen;        // Pa, Pa, 1
+  LanesMask active = lanes_of(inside);
+  Lanes cell_volume, mass, density;  // m^3, kg, kg/m^3
+  Unset<Lanes, D> velocity;          // m/s
+  Lanes internal;                    // J
 
+  Pack(const Gas& gas, std::size_t of_block, int k, std::uint8_t of_box)
+      : block(of_block),
+        number(k),
+        inside(of_box),
+        cell_volume(at(gas.content, Content::cell_volume)),
+        mass(at(gas.content, Content::of(D, 0, Content::mass))),
+        internal(at(gas.content, Content::energy)) {
+    for (std::size_t r = 1; r < gas.fluids.size(); ++r) mass += at(gas.content, Content::of(D, r, Content::mass));
+    density = mass / cell_volume;
+    Lanes kinetic(0.0);
+    for (std::size_t a = 0; a < D; ++a) {
+      const Lanes momentum = at(gas.content, Content::momentum + static_cast<int>(a));
+      velocity[a] = momentum / mass, kinetic += 0.5 * momentum * velocity[a];
+    }
+    internal -= kinetic;
+  }
   template <class AnyCellSet>
   auto& at(AnyCellSet& set, int quantity) const {
     return set.at(block, quantity)[number];
@@ -117,26 +133,17 @@ struct Pack {
   }
 };
 
-/// What the cells hold, by volume and by mass.
-template <int D>
-void find_means(const Gas& gas, Pack<D>& p) {
-  p.cell_volume = p.at(gas.content, Content::cell_volume), p.mass = Lanes(0.0);
-  for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r) p.mass += p.at(gas.content, Content::of(D, r, Content::mass));
-  p.density = p.mass / p.cell_volume;
-  Lanes kinetic(0.0);
-  for (int a = 0; a < D; ++a) {
-    const Lanes momentum = p.at(gas.content, Content::momentum + a);
-    p.velocity[a] = momentum / p.mass, kinetic += 0.5 * momentum * p.velocity[a];
-  }
-  p.internal = p.at(gas.content, Content::energy) - kinetic;
-}
+/// Its answer to compression.
+struct Response {
+  Lanes pressure, bulk_modulus, gruneisen;  // Pa, Pa, 1
+};
 
 template <int D>
-void find_pressure(const Fluid& fluid, Pack<D>& p) {
-  const auto at = slopes_of(fluid.equation_of_state, p.density, Lanes(p.internal / p.mass));
-  p.pressure = at.pressure, p.gruneisen = at.per_energy / p.density;
-  const Lanes least = Lanes(least_bulk_modulus(fluid.equation_of_state, 1.0)) * p.density;
-  p.bulk_modulus = max(Lanes(p.density * at.per_density + p.pressure * p.gruneisen), least);
+Response response_of(const Fluid& fluid, const Pack<D>& p) {
+  const Lanes density = p.density, energy = p.internal / p.mass;
+  const auto at = slopes_of(fluid.equation_of_state, density, energy);
+  const Lanes gruneisen = at.per_energy / density, least = Lanes(least_bulk_modulus(fluid.equation_of_state, 1.0)) * density;
+  return {at.pressure, max(Lanes(density * at.per_density + at.pressure * gruneisen), least), gruneisen};
 }
 
 /// The fluids of the cells. Cells that are not of the box hold anything: to look for its pressure can take very long, so the
@@ -154,18 +161,15 @@ void load_shares(const Gas& gas, const Pack<D>& p, std::vector<FluidShare>& shar
   }
 }
 
-/// Bulk modulus and Gruneisen coefficient of the cells, and what of their compressibility each fluid has.
+/// Keeps what part of the compressibility of the cells each fluid has; returns their response.
 template <int D>
-void find_compressibility(Gas& gas, Pack<D>& p, const std::vector<FluidShare>& shares) {
-  Lanes compliance(0.0);
-  p.gruneisen = Lanes(0.0);
+Response response_of(Gas& gas, const Pack<D>& p, const std::vector<FluidShare>& shares, const Lanes& pressure) {
+  Lanes compliance(0.0), gruneisen(0.0), impedance_ratio(0.0);
   for (const FluidShare& s : shares) {
     compliance += select(is_present(s.volume, s.mass, p.cell_volume), s.volume / s.bulk_modulus, Lanes(0.0));
-    p.gruneisen += s.volume / p.cell_volume * s.gruneisen;
+    gruneisen += s.volume / p.cell_volume * s.gruneisen;
   }
-  p.bulk_modulus = p.cell_volume / compliance;
   // The square of a fluid's impedance over the cell's is its part of the mass over that of the compressibility.
-  Lanes impedance_ratio(0.0);
   for (std::size_t r = 0; r < shares.size(); ++r) {
     const FluidShare& s = shares[r];
     const LanesMask present = is_present(s.volume, s.mass, p.cell_volume);
@@ -174,11 +178,12 @@ void find_compressibility(Gas& gas, Pack<D>& p, const std::vector<FluidShare>& s
     impedance_ratio += sqrt(share * s.mass / p.mass);
   }
   p.at(gas.primitive, Primitive::impedance_ratio(D, static_cast<int>(shares.size()))) = min(impedance_ratio, Lanes(1.0));
+  return {pressure, p.cell_volume / compliance, gruneisen};
 }
 
-/// The same of several fluids, which come to one pressure; `fastest`: m/s, of the waves of the step before.
+/// Brings the fluids of the cells to one pressure; `fastest`: m/s, of the waves of the step before.
 template <int D>
-void find_pressure(Gas& gas, Pack<D>& p, std::vector<FluidShare>& shares, double fastest) {
+Response come_to_equilibrium(Gas& gas, const Pack<D>& p, std::vector<FluidShare>& shares, double fastest) {
   load_shares(gas, p, shares);
   // Where velocities have mixed, kinetic energy has become heat.
   Lanes heat = select(p.active, p.internal, shares[0].internal);
@@ -186,12 +191,12 @@ void find_pressure(Gas& gas, Pack<D>& p, std::vector<FluidShare>& shares, double
   share_heat(gas.fluids, shares, heat);
   warm_cold_fluids(gas.fluids, shares);
   cool_traces(gas.fluids, shares, fastest);
-  p.pressure = equilibrate(gas.fluids, shares, select(p.active, p.cell_volume, Lanes(1.0)));
+  const Lanes pressure = equilibrate(gas.fluids, shares, select(p.active, p.cell_volume, Lanes(1.0)));
   for (std::size_t r = 0; r < shares.size(); ++r) {
     p.put(gas.content, Content::of(D, r, Content::volume), shares[r].volume);
     p.put(gas.content, Content::of(D, r, Content::internal), shares[r].internal);
   }
-  find_compressibility(gas, p, shares);
+  return response_of(gas, p, shares, pressure);
 }
 
 /// 1/s; see Gas.
@@ -204,20 +209,24 @@ struct Rates {
   }
 };
 
+/// Returns the largest rates of the cells.
 template <int D>
-void put_primitives(Gas& gas, const Pack<D>& p, Rates& largest) {
-  const Lanes sound = sqrt(p.bulk_modulus / p.density);
-  p.put(gas.primitive, Primitive::density, p.density), p.put(gas.primitive, Primitive::pressure, p.pressure);
-  p.put(gas.primitive, Primitive::sound_speed, sound), p.put(gas.primitive, Primitive::gruneisen, p.gruneisen);
+Rates put_primitives(Gas& gas, const Pack<D>& p, const Response& response) {
+  const Lanes sound = sqrt(response.bulk_modulus / p.density);
+  p.put(gas.primitive, Primitive::density, p.density), p.put(gas.primitive, Primitive::pressure, response.pressure);
+  p.put(gas.primitive, Primitive::sound_speed, sound), p.put(gas.primitive, Primitive::gruneisen, response.gruneisen);
   Lanes speed(0.0), motion(0.0);
-  for (int a = 0; a < D; ++a) {
-    p.put(gas.primitive, Primitive::velocity + a, p.velocity[a]);
-    speed += abs(p.velocity[a]), motion = max(motion, abs(p.velocity[a]));
+  for (std::size_t a = 0; a < D; ++a) {
+    const Lanes u = p.velocity[a];
+    p.put(gas.primitive, Primitive::velocity + static_cast<int>(a), u);
+    speed += abs(u), motion = max(motion, abs(u));
   }
   const double inverse_cell_size = 1.0 / gas.cells.cell_size;
   const Lanes wave = (speed + static_cast<double>(D) * sound) * inverse_cell_size;
+  Rates largest;
   for (int l = 0; l < 8; ++l)
     if (p.inside >> l & 1) largest.note(wave[l], motion[l] * inverse_cell_size);
+  return largest;
 }
 
 template <int D>
@@ -227,15 +236,12 @@ Rates find_equilibrium_of(Gas& gas, std::size_t block) {
   const double fastest =
       gas.wave_rate > 0.0 ? gas.wave_rate * gas.cells.cell_size : 1e150;  // nobody knows before the first step
   for (int k = 0; k < gas.cells.packs(); ++k) {
-    Pack<D> p;
-    p.block = block, p.number = k, p.inside = cells_inside(gas.cells, block, k), p.active = lanes_of(p.inside);
-    if (p.inside == 0) continue;
-    find_means(gas, p);
-    if (shares.size() == 1)
-      find_pressure(gas.fluids[0], p);
-    else
-      find_pressure(gas, p, shares, fastest);
-    put_primitives(gas, p, largest);
+    const std::uint8_t inside = cells_inside(gas.cells, block, k);
+    if (inside == 0) continue;
+    const Pack<D> p(gas, block, k, inside);
+    const Response response = shares.size() == 1 ? response_of(gas.fluids[0], p) : come_to_equilibrium(gas, p, shares, fastest);
+    const Rates rates = put_primitives(gas, p, response);
+    largest.note(rates.wave, rates.motion);
   }
   return largest;
 }
