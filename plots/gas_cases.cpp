@@ -90,18 +90,19 @@ Watch front_of(double level) {
 }
 
 /// Noise of a body that moves with gas of pressure 1: largest and mean change of the pressure.
-const Watch noise = {
-    50, "largest change of the pressure (Pa)",
-    [](const Simulation& s) {
-      double most = 0.0, sum = 0.0, volume = 0.0;
-      gas::for_each_cell(s.gas, [&](const gas::CellPlace& at) {
-        const double change = std::abs(s.gas.primitive.cell(at.block, gas::Primitive::pressure, at.cell) - 1.0);
-        const double V = gas::open_part(s.gas, at.block, at.cell) * s.gas.content.cell(at.block, gas::Content::room, at.cell);
-        most = std::max(most, change), sum += V * change, volume += V;
-      });
-      return std::vector{most, sum / volume};
-    },
-    [](const Watched&, double) { return 0.0; }};
+const Watch noise = {50, "largest change of the pressure (Pa)",
+                     [](const Simulation& s) {
+                       double most = 0.0, sum = 0.0, volume = 0.0;
+                       gas::for_each_cell(s.gas, [&](const gas::CellPlace& at) {
+                         const double change =
+                             std::abs(s.gas.primitive.cell(at.block, gas::Primitive::pressure, at.cell) - 1.0);
+                         const double V = gas::open_part(s.gas, at.block, at.cell) *
+                                          s.gas.content.cell(at.block, gas::Content::cell_volume, at.cell);
+                         most = std::max(most, change), sum += V * change, volume += V;
+                       });
+                       return std::vector{most, sum / volume};
+                     },
+                     [](const Watched&, double) { return 0.0; }};
 
 }  // namespace
 

@@ -144,7 +144,7 @@ inline Held held(const Simulation& s, const std::function<bool(const Vector&)>& 
   gas::for_each_cell(s.gas, [&](const gas::CellPlace& at) {
     if (!inside(s.gas.cells.centre(at.block, at.cell))) return;
     const double open = gas::open_part(s.gas, at.block, at.cell),
-                 V = open * s.gas.content.cell(at.block, gas::Content::room, at.cell);
+                 V = open * s.gas.content.cell(at.block, gas::Content::cell_volume, at.cell);
     sum.mass += V * s.gas.primitive.cell(at.block, gas::Primitive::density, at.cell);
     sum.pressure += V * s.gas.primitive.cell(at.block, gas::Primitive::pressure, at.cell);
     sum.energy += open * s.gas.content.cell(at.block, gas::Content::energy, at.cell), sum.volume += V;

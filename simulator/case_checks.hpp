@@ -24,7 +24,7 @@ inline std::string in_metres(double x) {
 
 /// What else is wrong is judged without a geometry as far as it does not depend on it.
 inline bool geometry_known(const TableReader& in) {
-  return in.sound_in_file({"geometry"});
+  return in.valid_in_file({"geometry"});
 }
 
 /// What has no name, as that is wrong, takes none.

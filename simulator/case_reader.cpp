@@ -53,7 +53,7 @@ class CaseReader : public KeyReader<CaseReader> {
       top.problem("there is no [[solid]] and no [gas]; a case has one of them");
     if (!case_.bodies.empty() && geometry_known(top) && dimensions() == 1)
       top.problem("geometry", "in one dimension there is gas alone; solids need plane, axisymmetric or three_dimensional");
-    if (top.sound({"geometry", "cell_size", "boundary"})) {
+    if (top.valid({"geometry", "cell_size", "boundary"})) {
       std::vector<TableReader> tables = top.tables("boundary");
       for (std::size_t b = 0; b < case_.boundaries.size(); ++b) check_stroke(tables[b], case_.boundaries[b]);
     }
@@ -147,7 +147,7 @@ class CaseReader : public KeyReader<CaseReader> {
   void read_value(TableReader& in, const Key<MeasureConfig, std::optional<double>>& key, std::optional<double>& value) {
     Quantity wanted = quantity(key);
     if (key.member == &MeasureConfig::measured) {
-      if (!in.sound({"kind"})) return;
+      if (!in.valid({"kind"})) return;
       wanted.unit = unit_of(in.choice<MeasureKind>("kind"));
     }
     value = in.number(key.name, wanted);
@@ -161,7 +161,7 @@ class CaseReader : public KeyReader<CaseReader> {
   template <class K, class Config>
   void read_value(TableReader& in, const K& key, std::vector<Config>& value) {
     std::vector<TableReader> tables = in.tables(key.name);
-    if (key.required && tables.empty() && in.sound({key.name}))
+    if (key.required && tables.empty() && in.valid({key.name}))
       in.problem(key.name, fmt::format("missing: {}; begin one by [[{}]]", key.meaning, in.path_of(key.name)));
     for (TableReader& table : tables) {
       if constexpr (std::is_same_v<Config, BodyConfig> || std::is_same_v<Config, FluidConfig>)
@@ -241,7 +241,7 @@ class CaseReader : public KeyReader<CaseReader> {
     return read_simple_shape<Cone>(table);
   }
 
-  /// A shape of numbers alone. What it is as a whole is judged if each number is sound.
+  /// A shape of numbers alone. What it is as a whole is judged if each number is valid.
   template <class Form>
   ShapePointer read_simple_shape(TableReader& table) {
     const std::size_t before = table.problem_count();
@@ -308,7 +308,7 @@ class CaseReader : public KeyReader<CaseReader> {
     gas::check(in, config, others, case_);
   }
 
-  /// Each check below is done if what it rests on is sound, whatever else is wrong: all problems are reported at once.
+  /// Each check below is done if what it rests on is valid, whatever else is wrong: all problems are reported at once.
 
   /// Whether names of bodies can be looked up.
   bool names_known() const {
@@ -319,14 +319,14 @@ class CaseReader : public KeyReader<CaseReader> {
   void resolve_body(TableReader& in, std::string& name, std::string_view whose) {
     if (name.empty() && case_.bodies.size() == 1) {
       name = case_.bodies.front().name;
-    } else if (name.empty() && names_known() && in.sound({"body"})) {
+    } else if (name.empty() && names_known() && in.valid({"body"})) {
       in.problem(fmt::format("which body {} is of is unknown; give `body`", whose));
     } else {
       require_body(in, name);
     }
   }
   void require_body(TableReader& in, const std::string& name) {
-    if (!names_known() || !in.sound({"body"})) return;
+    if (!names_known() || !in.valid({"body"})) return;
     std::vector<std::string_view> names;
     for (const BodyConfig& body : case_.bodies) names.push_back(body.name);
     if (std::find(names.begin(), names.end(), name) == names.end())
@@ -337,16 +337,16 @@ class CaseReader : public KeyReader<CaseReader> {
     require_own_name(in, body, others);
     require_file_name(in, body.name);
     if (body.shape && geometry_known(in)) {
-      if (in.sound({"particles_per_direction"})) check_extent(in, body);
+      if (in.valid({"particles_per_direction"})) check_extent(in, body);
       for (const BodyConfig& other : others) check_overlap(in, body, other);
     }
-    if (geometry_known(in) && in.sound({"velocity"})) check_velocity(in, body.velocity);
-    const bool material_known = in.sound({"material"});
+    if (geometry_known(in) && in.valid({"velocity"})) check_velocity(in, body.velocity);
+    const bool material_known = in.valid({"material"});
     if (body.porosity && material_known && !body.material.material.porosity)
       in.problem("porosity", "it would be ignored: the material has no [porosity] table");
     if (body.damage && material_known && !body.material.material.damage)
       in.problem("damage", "it would be ignored: the material has no [damage] table");
-    if (body.strength && in.sound({"strength"}) && body.strength->weibull_modulus > 0.0 &&
+    if (body.strength && in.valid({"strength"}) && body.strength->weibull_modulus > 0.0 &&
         body.strength->reference_volume == 0.0)
       in.problem("strength", "a Weibull distribution needs the volume its median belongs to; give reference_volume");
   }
@@ -397,9 +397,9 @@ class CaseReader : public KeyReader<CaseReader> {
 
   void check(TableReader& in, BoundaryConfig& boundary, const std::vector<BoundaryConfig>& others) {
     const std::size_t axis = static_cast<std::size_t>(boundary.axis);
-    const bool kind_known = in.sound({"kind"}), axis_known = geometry_known(in) && in.sound({"axis"});
+    const bool kind_known = in.valid({"kind"}), axis_known = geometry_known(in) && in.valid({"axis"});
     if (axis_known) require_component_in_geometry(in, boundary.axis, case_);
-    if (boundary.name.empty() && in.sound({"name", "kind", "axis", "side"}))
+    if (boundary.name.empty() && in.valid({"name", "kind", "axis", "side"}))
       boundary.name = fmt::format("{}_{}_{}", choices<BoundaryKind>[static_cast<std::size_t>(boundary.kind)], axis_names[axis],
                                   choices<Side>[static_cast<std::size_t>(boundary.side)]);
     require_own_name(in, boundary, others);
@@ -410,13 +410,13 @@ class CaseReader : public KeyReader<CaseReader> {
       in.problem("velocity", "it would be ignored: the kind is neither velocity nor rigid_wall");
     if (kind_known && boundary.kind != BoundaryKind::rigid_wall && boundary.friction > 0.0)
       in.problem("friction", "it would be ignored: the kind is not rigid_wall");
-    if (!axis_known || axis >= dimensions() || !in.sound({"position"}) || !(case_.cell_size > 0.0)) return;
+    if (!axis_known || axis >= dimensions() || !in.valid({"position"}) || !(case_.cell_size > 0.0)) return;
     const double cells = boundary.position / case_.cell_size;
     if (std::abs(cells - std::round(cells)) > round_off * std::max(1.0, std::abs(cells)))
       in.problem("position",
                  fmt::format("{} is on no plane of nodes; the nearest are {} and {}", in_metres(boundary.position),
                              in_metres(std::floor(cells) * case_.cell_size), in_metres(std::ceil(cells) * case_.cell_size)));
-    if (!in.sound({"side"})) return;
+    if (!in.valid({"side"})) return;
     for (const BodyConfig& body : case_.bodies) check_side(in, boundary, axis, body);
   }
 
@@ -432,7 +432,7 @@ class CaseReader : public KeyReader<CaseReader> {
 
   /// Figures are coloured by one number of each particle.
   void check_figure_field(TableReader& in, const std::string& field) {
-    if (!in.sound({"figure_field"})) return;
+    if (!in.valid({"figure_field"})) return;
     if (case_.gas) {
       if (in.has("figure_field")) gas::check_fields(in, {field}, case_, "figure_field");
       return;
@@ -482,7 +482,7 @@ class CaseReader : public KeyReader<CaseReader> {
 
   void check(TableReader& in, LoadConfig& load, const std::vector<LoadConfig>&) {
     resolve_body(in, load.body, "the load");
-    if (!in.sound({"pressure", "traction"})) return;
+    if (!in.valid({"pressure", "traction"})) return;
     const bool traction = load.traction != Vector{};
     if (load.pressure.has_value() == traction)
       in.problem(traction ? "there are a pressure and a traction; give one of the two in each [[load]]"
@@ -496,8 +496,8 @@ class CaseReader : public KeyReader<CaseReader> {
     check_surface(in, gauge);
     if (!gauge.body.empty()) require_body(in, gauge.body);
     if (case_.gas) return gas::check_gauge(in, gauge, case_);
-    const bool kind_known = in.sound({"kind"}), places_known = geometry_known(in) && in.sound({"from", "to"});
-    if (kind_known && places_known && in.sound({"axis"})) check_place(in, gauge);
+    const bool kind_known = in.valid({"kind"}), places_known = geometry_known(in) && in.valid({"from", "to"});
+    if (kind_known && places_known && in.valid({"axis"})) check_place(in, gauge);
     require_words(in, "fields", gauge.fields, gauge_fields, "cannot be recorded");
     if (!kind_known || !places_known) return;
     if (gauge.kind == GaugeKind::plane)
@@ -532,13 +532,13 @@ class CaseReader : public KeyReader<CaseReader> {
     for (std::size_t n = 0; n < case_.boundaries.size(); ++n) {
       const BoundaryConfig& b = case_.boundaries[n];
       const auto axis = static_cast<std::size_t>(b.axis);
-      if (!in.sound_in_file({fmt::format("boundary.{}", n)}) || travels(case_, b)) continue;
+      if (!in.valid_in_file({fmt::format("boundary.{}", n)}) || travels(case_, b)) continue;
       if (b.side == Side::above ? place.upper[axis] >= b.position : place.lower[axis] <= b.position) continue;
       if (!sought_along(axis))
         return in.problem("from", fmt::format("it lies beyond the boundary {} at {} = {}, where there is never any material",
                                               in_quotes(b.name), axis_names[axis], in_metres(b.position)));
     }
-    if (!gauge.moves.value_or(true) || gauge.kind == GaugeKind::surface || !in.sound({"moves", "body"})) return;
+    if (!gauge.moves.value_or(true) || gauge.kind == GaugeKind::surface || !in.valid({"moves", "body"})) return;
     if (!names_known() || !(case_.cell_size > 0.0)) return;
     for (const BodyConfig& body : case_.bodies)
       if (!body.shape) return;
@@ -571,7 +571,7 @@ class CaseReader : public KeyReader<CaseReader> {
   /// A surface is sought along an axis and goes with the material; the other kinds know neither axis nor side.
   void check_surface(TableReader& in, const GaugeConfig& gauge) {
     if (gauge.axis) require_component_in_geometry(in, *gauge.axis, case_);
-    if (!in.sound({"kind"})) return;
+    if (!in.valid({"kind"})) return;
     const bool surface = gauge.kind == GaugeKind::surface;
     if (surface && !in.has("axis")) in.problem("axis", "missing: the direction in which the surface is sought");
     if (surface && gauge.moves) in.problem("moves", "it would be ignored: a surface is where the material ends");
@@ -589,16 +589,16 @@ class CaseReader : public KeyReader<CaseReader> {
     if (!in.has("gauge")) return in.problem("gauge", "missing: the gauge, of kind point, at which it is measured");
     std::vector<std::string_view> points;
     for (std::size_t n = 0; n < case_.gauges.size(); ++n) {
-      if (!in.sound_in_file({fmt::format("gauge.{}.name", n), fmt::format("gauge.{}.kind", n)})) return;
+      if (!in.valid_in_file({fmt::format("gauge.{}.name", n), fmt::format("gauge.{}.kind", n)})) return;
       if (case_.gauges[n].kind == GaugeKind::point) points.push_back(case_.gauges[n].name);
     }
-    if (in.sound({"gauge"}) && std::find(points.begin(), points.end(), measure.gauge) == points.end())
+    if (in.valid({"gauge"}) && std::find(points.begin(), points.end(), measure.gauge) == points.end())
       in.problem("gauge", "there is no gauge " + in_quotes(measure.gauge) + " of kind point" +
                               (points.empty() ? "" : "; there is " + listed(points) + did_you_mean(measure.gauge, points)));
   }
 
   void check(TableReader& in, MeasureConfig& measure, const std::vector<MeasureConfig>& others) {
-    const bool kind_known = in.sound({"kind"}), of_gas = kind_known && is_of_gas(measure.kind);
+    const bool kind_known = in.valid({"kind"}), of_gas = kind_known && is_of_gas(measure.kind);
     if (kind_known && of_gas != case_.gas.has_value())
       return in.problem("kind", fmt::format("it is measured of {} alone, and this case is one of {}", of_gas ? "gas" : "solids",
                                             of_gas ? "solids" : "gas"));
@@ -606,25 +606,25 @@ class CaseReader : public KeyReader<CaseReader> {
       check_gas_measure(in, measure);
     } else if (!case_.gas) {
       resolve_body(in, measure.body, "the measure");
-      if (in.sound({"axis"})) require_component_in_geometry(in, measure.axis, case_);
+      if (in.valid({"axis"})) require_component_in_geometry(in, measure.axis, case_);
       for (const char* key : {"gauge", "ambient"})
         if (kind_known && in.has(key)) in.problem(key, "it would be ignored: the kind is none of gas");
     }
-    if (measure.name.empty() && kind_known && in.sound({"name", "at", "gauge"})) {
+    if (measure.name.empty() && kind_known && in.valid({"name", "at", "gauge"})) {
       measure.name = choices<MeasureKind>[static_cast<std::size_t>(measure.kind)];
       if (measure.kind == MeasureKind::diameter_at) measure.name += fmt::format("_{}", measure.at);
       if (of_gas) measure.name = measure.gauge + '_' + measure.name;
     }
     require_own_name(in, measure, others);
-    if (kind_known && in.sound({"at"}) && (measure.kind == MeasureKind::diameter_at) != (measure.at > 0.0))
+    if (kind_known && in.valid({"at"}) && (measure.kind == MeasureKind::diameter_at) != (measure.at > 0.0))
       in.problem("at", measure.at > 0.0 ? "it would be ignored: the kind is not diameter_at"
                                         : "missing: where along the initial length, > 0 and up to 1");
-    if (kind_known && in.sound({"profile"}) && (measure.kind == MeasureKind::profile_error) == measure.profile.empty())
+    if (kind_known && in.valid({"profile"}) && (measure.kind == MeasureKind::profile_error) == measure.profile.empty())
       in.problem("profile", measure.profile.empty() ? "missing: the CSV file of the measured profile"
                                                     : "it would be ignored: the kind is not profile_error");
     if (kind_known && measure.kind == MeasureKind::profile_error && measure.measured)
       in.problem("measured", "the error against the measured profile would be zero; remove it");
-    if (!measure.profile.empty() && in.sound({"profile"})) {
+    if (!measure.profile.empty() && in.valid({"profile"})) {
       try {
         static_cast<void>(read_profile(measure.profile));
       } catch (const InputError& error) {
@@ -641,10 +641,10 @@ class CaseReader : public KeyReader<CaseReader> {
     if (case_.gas) gas::check_fields(in, figure.fields, case_), gas::check_in_box(in, figure.from, figure.to, case_);
     const std::span drawable = std::span(gauge_fields).subspan(1);  // all but the position
     if (!case_.gas) require_words(in, "fields", figure.fields, drawable, "cannot be drawn");
-    if (figure.fields.empty() && in.sound({"fields"}))
+    if (figure.fields.empty() && in.valid({"fields"}))
       in.problem("fields", "there is nothing to draw; give one or more of " + listed(drawable));
-    if (in.sound({"from", "to"}) && figure.from == figure.to) in.problem("to", "it is where `from` is; a line has a length");
-    if (figure.reference.empty() || !in.sound({"fields", "from", "to", "reference"})) return;
+    if (in.valid({"from", "to"}) && figure.from == figure.to) in.problem("to", "it is where `from` is; a line has a length");
+    if (figure.reference.empty() || !in.valid({"fields", "from", "to", "reference"})) return;
     try {
       static_cast<void>(read_reference(figure));
     } catch (const InputError& error) {

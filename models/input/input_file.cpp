@@ -67,7 +67,7 @@ TableReader InputFile::top() {
   return TableReader(this, &table, "", root_.place);
 }
 
-bool InputFile::is_sound(std::string_view path) const {
+bool InputFile::is_valid(std::string_view path) const {
   const auto within = [](std::string_view inner, std::string_view outer) {
     return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
   };

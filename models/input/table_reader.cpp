@@ -90,12 +90,12 @@ std::size_t TableReader::problem_count() const {
   return owner_->problems_.size() + owner_->other_problems_.size();
 }
 
-bool TableReader::sound(std::initializer_list<std::string_view> keys) const {
-  return table_ && std::all_of(keys.begin(), keys.end(), [&](std::string_view key) { return owner_->is_sound(path_of(key)); });
+bool TableReader::valid(std::initializer_list<std::string_view> keys) const {
+  return table_ && std::all_of(keys.begin(), keys.end(), [&](std::string_view key) { return owner_->is_valid(path_of(key)); });
 }
 
-bool TableReader::sound_in_file(std::initializer_list<std::string_view> paths) const {
-  return std::all_of(paths.begin(), paths.end(), [&](std::string_view path) { return owner_->is_sound(path); });
+bool TableReader::valid_in_file(std::initializer_list<std::string_view> paths) const {
+  return std::all_of(paths.begin(), paths.end(), [&](std::string_view path) { return owner_->is_valid(path); });
 }
 
 std::string TableReader::path_of(std::string_view key) const {

@@ -123,10 +123,10 @@ class TableReader {
   /// How many problems have been reported in this file so far.
   std::size_t problem_count() const;
   /// Whether nothing has been found wrong so far with these keys of this table, nor with what is within them. A check rests on
-  /// some keys, and is done if they are sound, whatever else is wrong.
-  bool sound(std::initializer_list<std::string_view> keys) const;
+  /// some keys, and is done if they are valid, whatever else is wrong.
+  bool valid(std::initializer_list<std::string_view> keys) const;
   /// The same of keys of the file, by their paths: "gas.fluid.0".
-  bool sound_in_file(std::initializer_list<std::string_view> paths) const;
+  bool valid_in_file(std::initializer_list<std::string_view> paths) const;
 
   /// The place of a key as overrides name it: "flow_stress.A".
   std::string path_of(std::string_view key) const;
@@ -190,7 +190,7 @@ class InputFile {
   };
   void report_unread(const TomlTable& table, const std::string& path);
   void report_override(std::string_view key, std::string what);
-  bool is_sound(std::string_view path) const;
+  bool is_valid(std::string_view path) const;
 
   TomlNode root_;
   std::filesystem::path path_;

@@ -27,20 +27,20 @@ struct FaceSide {
 };
 /// Where the extrapolation nearly empties the cell it is not to be trusted, and the cell sends its own state.
 inline FaceSide trusted(const FaceSide& s, const Lanes& density, const Lanes& pressure, const Lanes& velocity,
-                        const LanesMask& plain = LanesMask(false)) {
+                        const LanesMask& first_order = LanesMask(false)) {
   constexpr double least = 1e-3;
-  const LanesMask bad = plain | (s.density < least * density) | ((s.pressure < least * pressure) & (pressure > 0.0));
+  const LanesMask bad = first_order | (s.density < least * density) | ((s.pressure < least * pressure) & (pressure > 0.0));
   return {select(bad, velocity, s.velocity), select(bad, pressure, s.pressure), select(bad, density, s.density)};
 }
 inline FaceSide face_side(const Pencil& density, const Pencil& pressure, const Pencil& velocity, const Pencil& half_pressure,
                           const Pencil& half_velocity, std::size_t c, double towards, double half_head,
-                          const LanesMask& plain = LanesMask(false)) {
+                          const LanesMask& first_order = LanesMask(false)) {
   const Lanes head = Lanes(2.0 * half_head) * density[c];
   FaceSide s;
   s.density = density[c] + towards * slope(density, c);
   s.pressure = pressure[c] + towards * (pressure_slope(pressure, density, c, half_head) + head) + half_pressure[c];
   s.velocity = velocity[c] + towards * slope(velocity, c) + half_velocity[c];
-  return trusted(s, density[c], pressure[c], velocity[c], plain);
+  return trusted(s, density[c], pressure[c], velocity[c], first_order);
 }
 
 /// Part of the impedance of a cell that its waves have, from the mean of its fluids' impedances over its own. Drops in a gas,
@@ -48,8 +48,8 @@ inline FaceSide face_side(const Pencil& density, const Pencil& pressure, const P
 /// would take hundreds of steps to come to the pressure about them. Their waves are those of the fluids, by their parts of the
 /// compressibility. Softer waves even out pressures faster; faster than in a cell through which sound just passes in the step
 /// they would overshoot. `cells_per_speed`: step over cell size, times the dimensions (s/m).
-inline Lanes softness_in_step(const Lanes& softness, const Lanes& sound, double cells_per_speed) {
-  return max(softness, min(Lanes((2.0 * cells_per_speed) * sound), Lanes(1.0)));
+inline Lanes impedance_ratio_in_step(const Lanes& impedance_ratio, const Lanes& sound, double cells_per_speed) {
+  return max(impedance_ratio, min(Lanes((2.0 * cells_per_speed) * sound), Lanes(1.0)));
 }
 
 /// The waves between two states.

@@ -164,7 +164,7 @@ std::size_t bytes_of(const Bodies& bodies) {
   add_all(s.primitive, s.content, s.change, s.half, s.part, s.fluid_density, s.fluid_energy);
   add_all(s.flow, s.pressure, s.velocity);
   for (const auto& of_axis : s.passing) add_all(of_axis);
-  add(s.volume, s.density, s.energy, s.covered, s.mean, s.rubbing, s.heat, s.plain);
+  add(s.volume, s.density, s.energy, s.covered, s.mean, s.rubbing, s.heat, s.first_order);
   for (const MovingBody& body : bodies.all) add(body.places, body.volumes);
   return sum;
 }

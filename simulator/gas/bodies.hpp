@@ -59,7 +59,7 @@ struct StepFields {
   std::array<std::vector<Column>, 3> passing;             // content through the low faces
   Column covered, mean;                                   // for the redistribution
   Column rubbing, heat;                                   // m/s, J: of the friction between rows; the heat of several fluids
-  Column plain;                                           // 1 where a cell does without slopes, in careful steps
+  Column first_order;                                     // 1 where a cell does without slopes, if any do
 };
 
 /// Momentum and work that a body has received from the gas in a step.
@@ -120,8 +120,8 @@ double open_part(const Gas& gas, std::size_t block, int cell);
 /// Finds where the bodies go in dt (s), and what that leaves open. False if a shorter step is needed: gas would change the side
 /// of a thin wall. Throws BodiesMeet.
 bool move_bodies(Gas& gas, double dt, Domain& domain);
-/// The step of the gas around them; false if a cell does not bear it. Such cells are marked then, and what `half_step` calls
-/// plain does without slopes, as in gas.cpp. Nothing of the state has changed in either case. Throws BodiesMeet.
+/// The step of the gas around them; false if a cell does not bear it. Such cells are marked then, and those that `half_step`
+/// calls of first order do without slopes, as in gas.cpp. Nothing of the state has changed in either case. Throws BodiesMeet.
 bool try_step_with_bodies(Gas& gas, double dt, Domain& domain);
 /// What has been found becomes the state of gas and bodies.
 void settle_with_bodies(Gas& gas, double dt, Domain& domain);

@@ -27,7 +27,7 @@ Lanes pressure_slope_at(const StepFields& s, std::size_t n, std::size_t step, co
 }
 
 FaceSide face_side(const StepFields& s, const Window& w, const CutCells& step, std::size_t n, std::size_t axis, double towards,
-                   const LanesMask& plain, double half_head) {
+                   const LanesMask& first_order, double half_head) {
   const LanesMask smooth = at(step.smooth[axis], n) > 0.5;
   const auto slope_of = [&](int quantity) {
     return slope_at(s.primitive[static_cast<std::size_t>(quantity)], n, offset(w, axis), smooth);
@@ -40,7 +40,7 @@ FaceSide face_side(const StepFields& s, const Window& w, const CutCells& step, s
   const Lanes excess = pressure_slope_at(s, n, offset(w, axis), smooth, half_head);
   side.pressure = pressure + towards * (excess + (2.0 * half_head) * density) + at(s.half[HalfStep::pressure], n);
   side.velocity = velocity + towards * slope_of(along) + at(s.half[HalfStep::velocity + axis], n);
-  return trusted(side, density, pressure, velocity, plain);
+  return trusted(side, density, pressure, velocity, first_order);
 }
 /// Of the low faces of eight cells along an axis: see passes_waves.
 Lanes least_mach_at(const Gas& gas, std::size_t axis, std::size_t n) {
@@ -88,15 +88,15 @@ void half_step(Gas& gas, double dt) {
       divergence += select(whole, widening * at(s.primitive[Primitive::velocity], n), Lanes(0.0));
     }
     (-0.5 * dt * density * sound * sound * divergence).store(s.half[HalfStep::pressure].data() + n);
-    if (!gas.careful) return;
-    const LanesMask plain = at(s.plain, n) > 0.0;
-    for (Column& half : s.half) select(plain, Lanes(0.0), at(half, n)).store(half.data() + n);
+    if (!gas.any_first_order) return;
+    const LanesMask first_order = at(s.first_order, n) > 0.0;
+    for (Column& half : s.half) select(first_order, Lanes(0.0), at(half, n)).store(half.data() + n);
   });
 }
 
-LanesMask first_order(const Gas& gas, std::size_t low, std::size_t high) {
-  if (!gas.careful) return LanesMask(false);
-  return at(gas.bodies.fields.plain, low) + at(gas.bodies.fields.plain, high) > 0.0;
+LanesMask first_order_face(const Gas& gas, std::size_t low, std::size_t high) {
+  if (!gas.any_first_order) return LanesMask(false);
+  return at(gas.bodies.fields.first_order, low) + at(gas.bodies.fields.first_order, high) > 0.0;
 }
 
 void find_faces(Gas& gas, double dt) {
@@ -113,15 +113,16 @@ void find_faces(Gas& gas, double dt) {
     return square;
   };
   const int fluids = static_cast<int>(gas.fluids.size());
-  const Column* softness =
-      fluids > 1 ? &s.primitive[static_cast<std::size_t>(Primitive::softness(w.dimensions, fluids))] : nullptr;
+  const Column* impedance_ratio =
+      fluids > 1 ? &s.primitive[static_cast<std::size_t>(Primitive::impedance_ratio(w.dimensions, fluids))] : nullptr;
   const double cells_per_speed = static_cast<double>(D) * dt / gas.cells.cell_size;
   for (std::size_t a = 0; a < D; ++a)
     for_each_eight(w, [&](std::size_t n) {
       const std::size_t l = n - offset(w, a);
-      const LanesMask plain = first_order(gas, l, n);
+      const LanesMask first_order = first_order_face(gas, l, n);
       const double half_head = 0.5 * gas.gravity[a] * gas.cells.cell_size;
-      FaceSide L = face_side(s, w, step, l, a, 0.5, plain, half_head), R = face_side(s, w, step, n, a, -0.5, plain, half_head);
+      FaceSide L = face_side(s, w, step, l, a, 0.5, first_order, half_head),
+               R = face_side(s, w, step, n, a, -0.5, first_order, half_head);
       Lanes sound_L = at(s.primitive[Primitive::sound_speed], l), sound_R = at(s.primitive[Primitive::sound_speed], n);
       // A cell that is only being opened has no state to send.
       const LanesMask gas_L = at(gas.bodies.space.volume, l) > 0.0, gas_R = at(gas.bodies.space.volume, n) > 0.0;
@@ -129,10 +130,10 @@ void find_faces(Gas& gas, double dt) {
       L = chosen(gas_L, L, R), R = chosen(gas_R, R, from_L);
       const Lanes c_L = sound_L;
       sound_L = select(gas_L, sound_L, sound_R), sound_R = select(gas_R, sound_R, c_L);
-      if (softness) {  // impedances are made of densities
-        const Lanes low = at(*softness, l), high = at(*softness, n);
-        L.density *= softness_in_step(select(gas_L, low, high), sound_L, cells_per_speed);
-        R.density *= softness_in_step(select(gas_R, high, low), sound_R, cells_per_speed);
+      if (impedance_ratio) {  // impedances are made of densities
+        const Lanes low = at(*impedance_ratio, l), high = at(*impedance_ratio, n);
+        L.density *= impedance_ratio_in_step(select(gas_L, low, high), sound_L, cells_per_speed);
+        R.density *= impedance_ratio_in_step(select(gas_R, high, low), sound_R, cells_per_speed);
       }
       const Lanes shock = 1.0 + 0.5 * max(at(s.primitive[Primitive::gruneisen], l), at(s.primitive[Primitive::gruneisen], n));
       const Star found = star(L, R, sound_L, sound_R, shock, sqrt(max(speed_at(l), speed_at(n))), least_mach_at(gas, a, n));
@@ -189,7 +190,7 @@ Lanes whole_mass(const Gas& gas, std::size_t n) {
   const StepFields& s = gas.bodies.fields;
   Lanes mass(0.0);
   for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r) {
-    const int quantity = Content::fluids(gas.dimensions()) + r * gas.fluid_quantities() + Content::mass;
+    const int quantity = Content::of(gas.dimensions(), r, Content::mass);
     mass += at(s.content[static_cast<std::size_t>(quantity)], n);
   }
   return mass;
@@ -255,7 +256,7 @@ void hold_rows_together(Gas& gas, double dt) {
     const std::size_t next = offset(w, a);
     std::atomic<bool> any_shock = false;
     for_each_eight(w, [&](std::size_t n) {
-      const LanesMask smooth = (at(bodies.step.smooth[a], n) > 0.5) & !first_order(gas, n, n);
+      const LanesMask smooth = (at(bodies.step.smooth[a], n) > 0.5) & !first_order_face(gas, n, n);
       const Lanes closing = closing_in_shock(w.dimensions, gas.cells.cell_size, dt, at(density, n), at(sound, n),
                                              at(s.half[HalfStep::pressure], n), slope_at(velocity(a), n, next, smooth));
       const Lanes rubbing = rubbing_of(closing, at(density, n), at(sound, n));
@@ -315,12 +316,11 @@ void share_changes(Gas& gas) {
   const Window& w = bodies.window;
   StepFields& s = gas.bodies.fields;
   const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
-  const auto first = [&](std::size_t r) { return Content::momentum + D + 3 * r; };
   const auto first_share = static_cast<std::size_t>(Primitive::share(gas.dimensions(), 0));
   for_each_eight(w, [&](std::size_t n) {
     const Lanes volume = at(bodies.space.volume, n), open = volume / whole_volumes(gas.cells, w, n);
     Lanes mass(0.0), kinetic_before(0.0), kinetic(0.0), carried(0.0);
-    for (std::size_t r = 0; r < fluids; ++r) mass += open * at(s.content[first(r) + Content::mass], n);
+    for (std::size_t r = 0; r < fluids; ++r) mass += open * at(s.content[content_of(w, r, Content::mass)], n);
     for (std::size_t a = 0; a < D; ++a) {
       const Lanes before = open * at(s.content[Content::momentum + a], n), push = at(s.change[Content::momentum + a], n),
                   after = before + push;
@@ -334,12 +334,12 @@ void share_changes(Gas& gas) {
     const Lanes work = at(s.change[Content::energy], n) - gained / mass - heat;
     const LanesMask gas_here = volume > 0.0;
     Lanes rest(1.0), largest(0.0);
-    for (std::size_t r = 0; r < fluids; ++r) largest = max(largest, at(s.content[first(r) + Content::volume], n));
+    for (std::size_t r = 0; r < fluids; ++r) largest = max(largest, at(s.content[content_of(w, r, Content::volume)], n));
     std::vector<Lanes> share(fluids);
     std::vector<LanesMask> majority(fluids);
     LanesMask given(false);
     for (std::size_t r = 0; r < fluids; ++r) {
-      const Lanes own = at(s.content[first(r) + Content::volume], n);
+      const Lanes own = at(s.content[content_of(w, r, Content::volume)], n);
       majority[r] = (own == largest) & !given;
       given |= majority[r];
       const Lanes wanted = at(s.primitive[first_share + r], n);
@@ -348,20 +348,22 @@ void share_changes(Gas& gas) {
     }
     for (std::size_t r = 0; r < fluids; ++r) {
       const Lanes part = select(gas_here, select(majority[r], rest, share[r]), Lanes(0.0));
-      select(gas_here, part * growth, Lanes(0.0)).store(s.change[first(r) + Content::volume].data() + n);
-      select(gas_here, part * work, Lanes(0.0)).store(s.change[first(r) + Content::internal].data() + n);
+      select(gas_here, part * growth, Lanes(0.0)).store(s.change[content_of(w, r, Content::volume)].data() + n);
+      select(gas_here, part * work, Lanes(0.0)).store(s.change[content_of(w, r, Content::internal)].data() + n);
     }
     if (!any(heat != 0.0)) return;
     // All become warmer by the same.
     std::vector<Lanes> capacity(fluids);
     Lanes total(0.0);
     for (std::size_t r = 0; r < fluids; ++r) {
-      const auto held = [&](std::size_t q) { return open * at(s.content[first(r) + q], n) + at(s.change[first(r) + q], n); };
+      const auto held = [&](int q) {
+        return open * at(s.content[content_of(w, r, q)], n) + at(s.change[content_of(w, r, q)], n);
+      };
       capacity[r] = heat_capacity(gas.fluids[r], held(Content::mass), held(Content::volume));
       total += capacity[r];
     }
     for (std::size_t r = 0; r < fluids; ++r) {
-      Column& change = s.change[first(r) + Content::internal];
+      Column& change = s.change[content_of(w, r, Content::internal)];
       select(heat != 0.0, at(change, n) + heat * capacity[r] / total, at(change, n)).store(change.data() + n);
     }
   });

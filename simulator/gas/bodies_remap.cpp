@@ -41,81 +41,105 @@ int count_own(const Gas& gas, const LanesMask& cells, const LanesMask& up, std::
   return count;
 }
 
+/// What passes eight faces, along the axis.
+struct Passing {
+  Lanes mass, heat;  // kg, J
+};
+
+/// The volumes of the fluids that pass are together what the faces have swept. What the limits leave over goes to the largest.
+std::vector<Lanes> share_swept_volume(const StepFields& s, const Giving& giving, const Lanes& swept) {
+  const std::size_t fluids = s.part.size();
+  constexpr double most = 0.999;  // of what the donor has
+  const Lanes all = abs(swept), donor_volume = giving.of(s.volume), sign = select(giving.up, Lanes(1.0), Lanes(-1.0));
+  Lanes left = all, largest(0.0);
+  std::vector<Lanes> volume(fluids);
+  for (std::size_t r = 0; r < fluids; ++r) {
+    const Lanes part = giving.of(s.part[r]), wanted = max(Lanes(all * giving.leaving(s.part[r])), Lanes(0.0));
+    volume[r] = select(part > 1.0 - least_fraction, all, min(wanted, Lanes(most * part * donor_volume)));
+    left -= volume[r], largest = max(largest, part);
+  }
+  LanesMask given(false);
+  for (std::size_t r = 0; r < fluids; ++r) {
+    const LanesMask most_of_it = (giving.of(s.part[r]) == largest) & !given;
+    given |= most_of_it;
+    volume[r] = sign * (volume[r] + select(most_of_it, left, Lanes(0.0)));
+  }
+  return volume;
+}
+
+/// Volumes, masses and energies of several fluids; put(column, value).
+template <class Put>
+Passing pass_fluids(const Window& w, const StepFields& s, const Giving& giving, const Lanes& swept, const Put& put) {
+  Passing all{Lanes(0.0), Lanes(0.0)};
+  const std::vector<Lanes> volume = share_swept_volume(s, giving, swept);
+  const Lanes sign = select(giving.up, Lanes(1.0), Lanes(-1.0));
+  for (std::size_t r = 0; r < volume.size(); ++r) {
+    const Lanes part = giving.of(s.part[r]), held = part * giving.of(s.volume);
+    const Lanes own_part = min(Lanes(sign * volume[r] / max(held, Lanes(1e-300))), Lanes(0.9999));
+    // Slopes only where the cell behind, this one and the next all have the fluid, and this one is not at its edge.
+    const Lanes next = giving.ahead(s.part[r]),
+                behind = select(giving.up, at(s.part[r], giving.low - giving.step), at(s.part[r], giving.high + giving.step));
+    const LanesMask smooth = giving.smooth & (min(min(behind, part), next) > 0.0) & has_slopes(behind, part, next);
+    const auto pass = [&](int quantity, const Lanes& value) {
+      const Lanes passing = select(part > 0.0, value, Lanes(0.0));
+      put(content_of(w, r, quantity), passing);
+      return passing;
+    };
+    pass(Content::volume, volume[r]);
+    all.mass += pass(Content::mass, volume[r] * giving.leaving(s.fluid_density[r], own_part, smooth));
+    all.heat += pass(Content::internal, volume[r] * giving.leaving(s.fluid_energy[r], own_part, smooth));
+  }
+  return all;
+}
+
+/// Momentum and energy that go with the mass. Returns where slopes have been taken back so that it could be noticed.
+template <class Put>
+LanesMask carry_momentum(const Window& w, const StepFields& s, const Giving& giving, const Passing& passing, const Put& put) {
+  const auto D = static_cast<std::size_t>(w.dimensions);
+  const Lanes density = giving.of(s.density), part = abs(passing.mass) / (density * giving.of(s.volume));
+  Lanes slopes[3], steepness(0.0), kinetic(0.0);
+  for (std::size_t a = 0; a < D; ++a) {
+    const auto of = [&](std::size_t cell) {
+      return monotonised_central(at(s.velocity[a], cell - giving.step), at(s.velocity[a], cell),
+                                 at(s.velocity[a], cell + giving.step));
+    };
+    slopes[a] = select(giving.smooth, select(giving.up, of(giving.low), of(giving.high)), Lanes(0.0));
+    steepness += slopes[a] * slopes[a];
+  }
+  const Leaving leaving = leaving_with_momentum(giving.up, part, density, steepness, giving.of(s.energy), Lanes(1.0));
+  for (std::size_t a = 0; a < D; ++a) {
+    const Lanes u = giving.of(s.velocity[a]) + leaving.offset * slopes[a];
+    put(Content::momentum + a, passing.mass * u), kinetic += 0.5 * passing.mass * u * u;
+  }
+  put(Content::energy, passing.heat * leaving.heat_kept + kinetic);
+  return leaving.too_steep & noticeable(steepness, giving.of(s.primitive[Primitive::sound_speed]));
+}
+
 /// What passes the faces across an axis. Returns how many slopes of own cells have been taken back.
 std::int64_t find_passing(Gas& gas, double dt, std::size_t axis) {
-  Bodies& bodies = gas.bodies;
+  const Bodies& bodies = gas.bodies;
   const Window& w = bodies.window;
-  StepFields& s = bodies.fields;
-  const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
-  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
-  std::vector<Column>& passing = s.passing[axis];
+  const StepFields& s = bodies.fields;
+  std::vector<Column>& columns = gas.bodies.fields.passing[axis];
   std::atomic<std::int64_t> flattened = 0;
   for_each_eight(w, [&](std::size_t n) {
     const Lanes swept = dt * at(s.flow[axis], n);
     const LanesMask none_passes = swept == 0.0;
     const auto put = [&](std::size_t q, const Lanes& value) {
-      select(none_passes, Lanes(0.0), value).store(passing[q].data() + n);
+      select(none_passes, Lanes(0.0), value).store(columns[q].data() + n);
     };
     Giving giving{n - offset(w, axis), n, offset(w, axis), swept > 0.0, LanesMask(false), Lanes(0.0)};
     giving.part = abs(swept) / giving.of(s.volume);
-    giving.smooth = (giving.of(bodies.step.smooth[axis]) > 0.5) & !first_order(gas, giving.low, giving.high);
-    Lanes mass(0.0), heat(0.0);
-    if (fluids == 1) {
-      mass = swept * giving.leaving(s.density), heat = swept * giving.leaving(s.energy);
-      put(Content::momentum + D, mass);
+    giving.smooth = (giving.of(bodies.step.smooth[axis]) > 0.5) & !first_order_face(gas, giving.low, giving.high);
+    Passing passing;
+    if (gas.fluids.size() == 1) {
+      passing = {swept * giving.leaving(s.density), swept * giving.leaving(s.energy)};
+      put(content_of(w, 0, Content::mass), passing.mass);
     } else {
-      const Lanes q = abs(swept), sign = select(giving.up, Lanes(1.0), Lanes(-1.0)), room = giving.of(s.volume);
-      constexpr double most = 0.999;  // of what the donor has
-      Lanes left = q, largest(0.0);
-      std::vector<Lanes> volume(fluids);
-      for (std::size_t r = 0; r < fluids; ++r) {
-        const Lanes part = giving.of(s.part[r]);
-        const LanesMask whole = part > 1.0 - least_fraction;
-        const Lanes wanted = max(Lanes(q * giving.leaving(s.part[r])), Lanes(0.0));
-        volume[r] = select(whole, q, min(wanted, Lanes(most * part * room)));
-        left -= volume[r], largest = max(largest, part);
-      }
-      LanesMask given(false);
-      for (std::size_t r = 0; r < fluids; ++r) {
-        const Lanes part = giving.of(s.part[r]);
-        const LanesMask here = part > 0.0, most_of_it = (part == largest) & !given;
-        given |= most_of_it;
-        const Lanes own = volume[r] + select(most_of_it, left, Lanes(0.0));
-        const Lanes own_part = min(Lanes(own / max(Lanes(part * room), Lanes(1e-300))), Lanes(0.9999));
-        // Slopes only where the cell behind, this one and the next all have the fluid, and this one is not at its edge.
-        const Lanes next = giving.ahead(s.part[r]), behind = select(giving.up, at(s.part[r], giving.low - giving.step),
-                                                                    at(s.part[r], giving.high + giving.step));
-        const Column& density = s.fluid_density[r];
-        const LanesMask smooth = giving.smooth & (min(min(behind, part), next) > 0.0) & has_slopes(behind, part, next);
-        const Lanes dm = select(here, sign * own * giving.leaving(density, own_part, smooth), Lanes(0.0));
-        const Lanes dI = select(here, sign * own * giving.leaving(s.fluid_energy[r], own_part, smooth), Lanes(0.0));
-        const std::size_t first = Content::momentum + D + per_fluid * r;
-        put(first + Content::mass, dm), put(first + Content::volume, select(here, sign * own, Lanes(0.0)));
-        put(first + Content::internal, dI);
-        mass += dm, heat += dI;
-      }
+      passing = pass_fluids(w, s, giving, swept, put);
     }
-    const Lanes density = giving.of(s.density), part = abs(mass) / (density * giving.of(s.volume));
-    Lanes slopes[3], steepness(0.0);
-    for (std::size_t a = 0; a < D; ++a) {
-      const auto of = [&](std::size_t cell) {
-        return monotonised_central(at(s.velocity[a], cell - giving.step), at(s.velocity[a], cell),
-                                   at(s.velocity[a], cell + giving.step));
-      };
-      slopes[a] = select(giving.smooth, select(giving.up, of(giving.low), of(giving.high)), Lanes(0.0));
-      steepness += slopes[a] * slopes[a];
-    }
-    const Leaving leaving = leaving_with_momentum(giving.up, part, density, steepness, giving.of(s.energy), Lanes(1.0));
-    if (any(leaving.too_steep))
-      flattened += count_own(
-          gas, leaving.too_steep & !none_passes & noticeable(steepness, giving.of(s.primitive[Primitive::sound_speed])),
-          giving.up, giving.low, giving.high);
-    Lanes kinetic(0.0);
-    for (std::size_t a = 0; a < D; ++a) {
-      const Lanes u = giving.of(s.velocity[a]) + leaving.offset * slopes[a];
-      put(Content::momentum + a, mass * u), kinetic += 0.5 * mass * u * u;
-    }
-    put(Content::energy, heat * leaving.heat_kept + kinetic);
+    const LanesMask too_steep = carry_momentum(w, s, giving, passing, put) & !none_passes;
+    if (any(too_steep)) flattened += count_own(gas, too_steep, giving.up, giving.low, giving.high);
   });
   return flattened;
 }
@@ -160,12 +184,10 @@ void find_donors(Gas& gas) {
   const Window& w = bodies.window;
   StepFields& s = bodies.fields;
   const auto D = static_cast<std::size_t>(w.dimensions), fluids = gas.fluids.size();
-  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
-  const auto first = [&](std::size_t r) { return Content::momentum + D + per_fluid * r; };
   // From what a cell, or a neighbourhood, holds after the Lagrangian phase.
   const auto write = [&](auto&& held, const auto& volume, bool neighbourhood, auto&& put) {
-    auto mass = held(first(0) + Content::mass);
-    for (std::size_t r = 1; r < fluids; ++r) mass += held(first(r) + Content::mass);
+    auto mass = held(content_of(w, 0, Content::mass));
+    for (std::size_t r = 1; r < fluids; ++r) mass += held(content_of(w, r, Content::mass));
     auto kinetic = 0.0 * mass;
     for (std::size_t a = 0; a < D; ++a) {
       const auto p = held(Content::momentum + a);
@@ -178,15 +200,15 @@ void find_donors(Gas& gas) {
     using Real = std::decay_t<decltype(mass)>;
     Real internal = 0.0 * mass, volumes = internal;
     for (std::size_t r = 0; r < fluids; ++r)
-      internal += held(first(r) + Content::internal), volumes += held(first(r) + Content::volume);
+      internal += held(content_of(w, r, Content::internal)), volumes += held(content_of(w, r, Content::volume));
     // The cells of a neighbourhood share their motion: what it loses by that is heat of all of its fluids.
     const Real lost = held(Content::energy) - kinetic - internal;
     if (neighbourhood) internal += lost;
     for (std::size_t r = 0; r < fluids; ++r) {
-      const Real own = held(first(r) + Content::volume), own_mass = held(first(r) + Content::mass);
+      const Real own = held(content_of(w, r, Content::volume)), own_mass = held(content_of(w, r, Content::mass));
       const auto present = is_present(own, own_mass, Real(volume));
       const Real divisor = select(present, own, Real(1.0));
-      Real heat = held(first(r) + Content::internal);
+      Real heat = held(content_of(w, r, Content::internal));
       if (neighbourhood) heat += lost * (own / volumes);
       put(s.part[r], select(present, Real(own / volume), Real(0.0)));
       put(s.fluid_density[r], Real(own_mass / divisor)), put(s.fluid_energy[r], Real(heat / divisor));
@@ -232,7 +254,7 @@ bool nothing_is_overdrawn(Gas& gas, double dt) {
       for (std::size_t a = 0; a < static_cast<std::size_t>(w.dimensions); ++a)
         out += std::max(s.flow[a][n + offset(w, a)], 0.0) - std::min(s.flow[a][n], 0.0);
       constexpr double most = 0.9;
-      if (dt * out <= most * s.volume[n] && s.volume[n] > least_room * bodies.space.volume[n]) continue;
+      if (dt * out <= most * s.volume[n] && s.volume[n] > least_volume_ratio * bodies.space.volume[n]) continue;
       gas.marks.cell(static_cast<std::size_t>(b), 0, c) = 1.0, good = false;
     }
   return good;
@@ -264,16 +286,15 @@ std::int64_t remap(Gas& gas, double dt) {
 /// How a quantity changes from cell to cell in a column of constant entropy at rest: d rho = rho g dx/c^2, de = (e + p) d
 /// rho/rho per volume; none without gravity, and of what does not change so.
 SlopeAt column_slope(const Gas& gas, std::size_t q) {
-  const auto first = static_cast<std::size_t>(Content::fluids(gas.dimensions()));
-  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
-  const bool of_fluid = q >= first, energy = of_fluid ? (q - first) % per_fluid == Content::internal : q == Content::energy;
-  if (gas.gravity == Vector{} || !(energy || (of_fluid && (q - first) % per_fluid == Content::mass))) return {};
-  return [&gas, q, energy, of_fluid](std::size_t n) {
+  const auto is_of_fluid = [&](int quantity) { return Content::is_of_fluid(gas.dimensions(), static_cast<int>(q), quantity); };
+  const bool whole_energy = q == Content::energy, energy = whole_energy || is_of_fluid(Content::internal);
+  if (gas.gravity == Vector{} || !(energy || is_of_fluid(Content::mass))) return {};
+  return [&gas, q, energy, whole_energy](std::size_t n) {
     const StepFields& s = gas.bodies.fields;
     if (!(gas.bodies.space.volume[n] > 0.0)) return Vector{};
     const double c = s.primitive[Primitive::sound_speed][n], p = s.primitive[Primitive::pressure][n];
     const double whole = whole_cell(gas.cells, gas.bodies.window.index(n)[0]).volume;
-    const double part = !energy ? 0.0 : !of_fluid ? 1.0 : s.content[q - Content::internal + Content::volume][n] / whole;
+    const double part = !energy ? 0.0 : whole_energy ? 1.0 : s.content[q - Content::internal + Content::volume][n] / whole;
     return (gas.cells.cell_size / (c * c) * (s.mean[n] + part * p)) * gas.gravity;
   };
 }
@@ -283,10 +304,11 @@ void redistribute_all(Gas& gas, std::vector<double>& entrapped, Meeting& meeting
   const Window& w = bodies.window;
   StepFields& s = bodies.fields;
   const auto D = static_cast<std::size_t>(w.dimensions);
-  const auto per_fluid = static_cast<std::size_t>(gas.fluid_quantities());
   const std::vector<SharedWithWorld> with_world = find_shared_with_world(gas);
   for (std::size_t q = 1; q < s.content.size(); ++q) {
     Column& held = s.content[q];
+    const bool mass = Content::is_of_fluid(w.dimensions, static_cast<int>(q), Content::mass);
+    const auto fluid = static_cast<std::size_t>(mass ? Content::fluid_of(w.dimensions, static_cast<int>(q)) : 0);
     for (const std::size_t n : bodies.small.shared) {
       const double whole = whole_cell(gas.cells, w.index(n)[0]).volume;
       const bool covered = bodies.next_space.volume[n] == 0.0;
@@ -308,8 +330,8 @@ void redistribute_all(Gas& gas, std::vector<double>& entrapped, Meeting& meeting
         step.energy += gain;
       else if (q < Content::momentum + D)
         step.momentum[q - Content::momentum] += gain;
-      else if ((q - Content::momentum - D) % per_fluid == Content::mass)
-        step.mass[(q - Content::momentum - D) / per_fluid] += gain;
+      else if (mass)
+        step.mass[fluid] += gain;
     }
     for (std::size_t k = 0; k < bodies.small.shared.size(); ++k) {
       const std::size_t n = bodies.small.shared[k];
@@ -324,8 +346,8 @@ void redistribute_all(Gas& gas, std::vector<double>& entrapped, Meeting& meeting
         entrapped.back() += s.covered[hood.cell];
       else if (q < Content::momentum + D)
         entrapped[gas.fluids.size() + q - Content::momentum] += s.covered[hood.cell];
-      else if ((q - Content::momentum - D) % per_fluid == Content::mass)
-        entrapped[(q - Content::momentum - D) / per_fluid] += s.covered[hood.cell];
+      else if (mass)
+        entrapped[fluid] += s.covered[hood.cell];
     }
   }
 }

@@ -21,7 +21,7 @@ void take_state(Gas& gas, Domain& domain);
 /// Pressure and velocity at the middle of the step, from the slopes in each cell.
 void half_step(Gas& gas, double dt);
 /// Faces between two cells of which one does without slopes.
-LanesMask first_order(const Gas& gas, std::size_t low, std::size_t high);
+LanesMask first_order_face(const Gas& gas, std::size_t low, std::size_t high);
 /// Pressure of each face, and the volume that flows through it.
 void find_faces(Gas& gas, double dt);
 /// What the faces do to each cell before anything is carried along: volume, momentum, energy.

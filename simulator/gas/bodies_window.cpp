@@ -14,14 +14,14 @@ namespace {
 
 namespace eos = equation_of_state;
 
-void make_room(const Gas& gas, StepFields& s, std::size_t length) {
+void allocate(const Gas& gas, StepFields& s, std::size_t length) {
   if (s.volume.size() == length) return;
   const auto D = static_cast<std::size_t>(gas.dimensions());
   const auto columns = [&](std::vector<Column>& all, std::size_t count) { all.assign(count, Column(length, 1.0)); };
   const auto contents = static_cast<std::size_t>(gas.contents());
   columns(s.primitive, static_cast<std::size_t>(gas.primitive.quantities()));
   columns(s.content, contents), columns(s.change, contents), columns(s.half, 1 + D);
-  for (Column* c : {&s.volume, &s.density, &s.energy, &s.covered, &s.mean, &s.rubbing, &s.plain}) c->assign(length, 1.0);
+  for (Column* c : {&s.volume, &s.density, &s.energy, &s.covered, &s.mean, &s.rubbing, &s.first_order}) c->assign(length, 1.0);
   for (std::size_t a = 0; a < D; ++a) {
     s.flow[a].assign(length, 0.0), s.pressure[a].assign(length, 0.0), s.velocity[a].assign(length, 0.0);
     columns(s.passing[a], contents);
@@ -126,7 +126,7 @@ void gather_state(Gas& gas, Domain& domain) {
   std::vector<Gathered> wanted;
   for (std::size_t q = 0; q < s.primitive.size(); ++q) wanted.push_back({&gas.primitive, static_cast<int>(q), &s.primitive[q]});
   for (std::size_t q = 0; q < s.content.size(); ++q) wanted.push_back({&gas.content, static_cast<int>(q), &s.content[q]});
-  if (gas.careful) wanted.push_back({&gas.half_step, HalfStep::plain(gas.dimensions()), &s.plain});
+  if (gas.any_first_order) wanted.push_back({&gas.half_step, HalfStep::first_order(gas.dimensions()), &s.first_order});
   gather(gas, wanted, domain);
 }
 
@@ -137,7 +137,8 @@ void write_state(Gas& gas, const Filling& filling, const Index& cell, std::size_
   // Through a cell of scratch.
   const auto block = static_cast<std::size_t>(gas.cells.mine.front());
   write_content(gas, gas.next, block, 0, filling);
-  const double room = gas.next.cell(block, Content::room, 0), part = whole_cell(gas.cells, cell[0]).volume / room;
+  const double cell_volume = gas.next.cell(block, Content::cell_volume, 0),
+               part = whole_cell(gas.cells, cell[0]).volume / cell_volume;
   for (std::size_t q = 0; q < s.content.size(); ++q) s.content[q][n] = part * gas.next.cell(block, static_cast<int>(q), 0);
   double kinetic = 0.0;
   for (std::size_t a = 0; a < D; ++a) {
@@ -145,7 +146,7 @@ void write_state(Gas& gas, const Filling& filling, const Index& cell, std::size_
     kinetic += 0.5 * filling.density * filling.velocity[a] * filling.velocity[a];
   }
   const EquationOfState& law = gas.fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state;
-  const double energy = (gas.next.cell(block, Content::energy, 0) / room - kinetic) / filling.density;
+  const double energy = (gas.next.cell(block, Content::energy, 0) / cell_volume - kinetic) / filling.density;
   s.primitive[Primitive::density][n] = filling.density, s.primitive[Primitive::pressure][n] = filling.pressure;
   s.primitive[Primitive::sound_speed][n] = std::sqrt(eos::sound_speed_squared(law, filling.density, energy));
   s.primitive[Primitive::gruneisen][n] = eos::gruneisen_coefficient(law, filling.density, energy);
@@ -153,7 +154,7 @@ void write_state(Gas& gas, const Filling& filling, const Index& cell, std::size_
   const int dimensions = gas.dimensions(), fluids = static_cast<int>(gas.fluids.size());
   const auto at = [&](int quantity) -> double& { return s.primitive[static_cast<std::size_t>(quantity)][n]; };
   for (int r = 0; r < fluids; ++r) at(Primitive::share(dimensions, r)) = r == filling.fluid ? 1.0 : 0.0;
-  at(Primitive::softness(dimensions, fluids)) = 1.0;
+  at(Primitive::impedance_ratio(dimensions, fluids)) = 1.0;
 }
 
 /// What lies beyond the box, axis by axis.
@@ -180,7 +181,7 @@ void fill_beyond(Gas& gas) {
       const std::size_t n = w.at(cell), source = w.at(from);
       for (Column& column : s.primitive) column[n] = column[source];
       for (Column& column : s.content) column[n] = column[source];
-      s.plain[n] = s.plain[source];
+      s.first_order[n] = s.first_order[source];
       s.primitive[Primitive::velocity + a][n] *= sign, s.content[Content::momentum + a][n] *= sign;
       // Contents are those of whole cells, which about an axis are the wider the farther out they lie.
       const double wider = whole_cell(cells, cell[0]).volume / whole_cell(cells, from[0]).volume;
@@ -231,7 +232,7 @@ void fill_beyond(Gas& gas) {
 }  // namespace
 
 void take_state(Gas& gas, Domain& domain) {
-  make_room(gas, gas.bodies.fields, gas.bodies.window.length);
+  allocate(gas, gas.bodies.fields, gas.bodies.window.length);
   gather_state(gas, domain);
   if (!gas.bodies.window.empty()) fill_beyond(gas);
 }

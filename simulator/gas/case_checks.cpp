@@ -33,7 +33,7 @@ constexpr double least_cells = 4.0;  // across the box
 
 /// Whether geometry and box are known.
 bool box_known(const TableReader& in) {
-  return in.sound_in_file({"geometry", "cell_size", "gas.lower", "gas.upper"});
+  return in.valid_in_file({"geometry", "cell_size", "gas.lower", "gas.upper"});
 }
 /// Whether the box is one; check_gas says so if not.
 bool holds_cells(const TableReader& in, const Case& c) {
@@ -48,17 +48,17 @@ bool fluids_named(const Case& c) {
   return !c.gas->fluids.empty() &&
          std::none_of(c.gas->fluids.begin(), c.gas->fluids.end(), [](const FluidConfig& fluid) { return fluid.name.empty(); });
 }
-/// Whether a key is sound in all tables of a list within [gas].
-bool sound_in_all(const TableReader& in, std::string_view list, std::size_t count, std::string_view key) {
+/// Whether a key is valid in all tables of a list within [gas].
+bool valid_in_all(const TableReader& in, std::string_view list, std::size_t count, std::string_view key) {
   for (std::size_t n = 0; n < count; ++n)
-    if (!in.sound_in_file({fmt::format("gas.{}.{}.{}", list, n, key)})) return false;
+    if (!in.valid_in_file({fmt::format("gas.{}.{}.{}", list, n, key)})) return false;
   return true;
 }
 /// The fluid of this name; null if there is none, or if its material is wrong.
 const FluidConfig* find_fluid(const TableReader& in, const Case& c, std::string_view name) {
   for (std::size_t n = 0; n < c.gas->fluids.size(); ++n)
     if (c.gas->fluids[n].name == name)
-      return in.sound_in_file({fmt::format("gas.fluid.{}.material", n)}) ? &c.gas->fluids[n] : nullptr;
+      return in.valid_in_file({fmt::format("gas.fluid.{}.material", n)}) ? &c.gas->fluids[n] : nullptr;
   return nullptr;
 }
 
@@ -81,7 +81,7 @@ template <class State>
 void check_fluid_of(TableReader& in, State& state, const Case& c) {
   if (state.fluid.empty() && c.gas->fluids.size() == 1) {
     state.fluid = c.gas->fluids.front().name;
-  } else if (in.sound({"fluid"}) && fluids_named(c)) {
+  } else if (in.valid({"fluid"}) && fluids_named(c)) {
     std::vector<std::string_view> names;
     for (const FluidConfig& fluid : c.gas->fluids) names.push_back(fluid.name);
     if (state.fluid.empty())
@@ -100,7 +100,7 @@ template <class State>
 void check_existence(TableReader& in, const State& state, const Case& c) {
   if (state.density.has_value() == state.temperature.has_value() || !state.pressure || varies(state)) return;
   const FluidConfig* fluid = find_fluid(in, c, state.fluid);
-  if (!fluid || !in.sound({"density", "temperature", "pressure"})) return;
+  if (!fluid || !in.valid({"density", "temperature", "pressure"})) return;
   const std::string why = why_not(*fluid, state.pressure->number, number_of(state.density), number_of(state.temperature));
   if (!why.empty()) in.problem("pressure", why);
 }
@@ -137,7 +137,7 @@ std::optional<StateProfile> check_profile(TableReader& in, const ProfileConfig& 
     if (!in.has("density") && !in.has("temperature")) elsewhere.density = "the profile";
     return {};
   };
-  if (!in.sound({"profile"})) return unknown();
+  if (!in.valid({"profile"})) return unknown();
   const bool radius = profile.along == ProfileAlong::radius;
   if (geometry_known(in) && !radius && static_cast<std::size_t>(profile.along) >= dimensions_of(c))
     in.problem("profile", fmt::format("there is no {} in this geometry; give a coordinate that it has, or radius",
@@ -161,7 +161,7 @@ std::optional<StateProfile> check_profile(TableReader& in, const ProfileConfig& 
 /// The first row of a profile that makes a state which the fluid does not have.
 void check_rows(TableReader& in, const FillConfig& fill, const StateProfile& profile, const Case& c) {
   const FluidConfig* fluid = find_fluid(in, c, fill.fluid);
-  if (!fluid || !in.sound({"density", "temperature", "pressure"}) || (profile.pressure.empty() && !fill.pressure) ||
+  if (!fluid || !in.valid({"density", "temperature", "pressure"}) || (profile.pressure.empty() && !fill.pressure) ||
       (profile.density.empty() && fill.density.has_value() == fill.temperature.has_value()))
     return;
   for (std::size_t row = 0; row < profile.place.size(); ++row) {
@@ -181,8 +181,8 @@ void check_transport(TableReader& in, const GasConfig& gas) {
   };
   if (gas.heat_exchange > 0.0 && gas.fluids.size() == 1)
     in.problem("heat_exchange", "it would be ignored: there is one fluid; remove it");
-  const bool viscosities_known = sound_in_all(in, "fluid", gas.fluids.size(), "viscosity");
-  const bool conductivities_known = sound_in_all(in, "fluid", gas.fluids.size(), "conductivity");
+  const bool viscosities_known = valid_in_all(in, "fluid", gas.fluids.size(), "viscosity");
+  const bool conductivities_known = valid_in_all(in, "fluid", gas.fluids.size(), "conductivity");
   for (const EdgeConfig& edge : gas.edges) {
     if (edge.kind != EdgeKind::no_slip) continue;
     const std::string_view side = choices<BoxSide>[static_cast<std::size_t>(edge.side)];
@@ -218,11 +218,11 @@ void check_box(TableReader& in, const Case& c) {
 
 /// Nothing is said of the length of steps that would go unheard.
 void check_step(TableReader& in, const GasConfig& gas) {
-  if (gas.acoustic_courant != GasConfig{}.acoustic_courant && in.sound({"implicit"}) && !gas.implicit)
+  if (gas.acoustic_courant != GasConfig{}.acoustic_courant && in.valid({"implicit"}) && !gas.implicit)
     in.problem("acoustic_courant", "it would be ignored: it is the Courant number of implicit = true");
   if (gas.courant != 0.0 && gas.implicit)
     in.problem("courant", "it would be ignored: the steps of implicit = true are those of acoustic_courant");
-  if (gas.momentum_exchange != GasConfig{}.momentum_exchange && in.sound({"scheme"}) && gas.scheme != GasScheme::ice_classic)
+  if (gas.momentum_exchange != GasConfig{}.momentum_exchange && in.valid({"scheme"}) && gas.scheme != GasScheme::ice_classic)
     in.problem("momentum_exchange",
                "it would be ignored: fluids of a cell have one velocity but with scheme = \"ice_classic\"");
 }
@@ -265,7 +265,7 @@ void check_with_bodies(TableReader& in, const Case& c) {
   Case drawn = c;  // with the bodies alone whose shapes are known
   std::erase_if(drawn.gas->bodies, [](const GasBodyConfig& body) { return !body.shape; });
   for (const std::string& fault : overlaps_of_bodies(drawn)) in.problem("body", fault);
-  if (!holds_cells(in, c) || !sound_in_all(in, "edge", gas.edges.size(), "kind")) return;
+  if (!holds_cells(in, c) || !valid_in_all(in, "edge", gas.edges.size(), "kind")) return;
   for (const std::string& fault : bodies_that_do_not_show(drawn)) in.problem("body", fault);
 }
 
@@ -279,11 +279,11 @@ bool is_zero(const VaryingVector& velocity) {
   return !velocity.varies() && velocity.numbers() == Vector{};
 }
 
-/// Of what a state is, as far as it is sound: no fluid where only values can be judged.
+/// Of what a state is, as far as it is valid: no fluid where only values can be judged.
 std::optional<Fluid> fluid_of_state(const TableReader& in, const GasStateConfig& state, const Case& c) {
   const FluidConfig* fluid = find_fluid(in, c, state.fluid);
   const bool complete = state.pressure && state.density.has_value() != state.temperature.has_value() &&
-                        in.sound({"density", "temperature", "pressure"});
+                        in.valid({"density", "temperature", "pressure"});
   return fluid && complete ? std::optional(Fluid{fluid->name, fluid->material.material.equation_of_state}) : std::nullopt;
 }
 /// Cells of a lattice, the last ones exclusive; no number of cells is too large for a double.
@@ -343,7 +343,7 @@ void check_formulas(TableReader& in, const EdgeConfig& edge, const Case& c) {
   std::optional<CellRange> beyond = cells_of_box(in, c);
   if (!varies(edge) || !beyond || axis >= dimensions_of(c)) return;
   const double depth = c.gas->bodies.empty() ? ring : Window::depth;  // with bodies their neighbourhoods reach farther
-  const bool pressure_alone = in.sound({"kind"}) && edge.kind == EdgeKind::pressure;
+  const bool pressure_alone = in.valid({"kind"}) && edge.kind == EdgeKind::pressure;
   if (static_cast<std::size_t>(edge.side) % 2 == 0)
     beyond->last[axis] = beyond->first[axis], beyond->first[axis] -= depth;
   else
@@ -360,7 +360,7 @@ void check_formulas(TableReader& in, const EdgeConfig& edge, const Case& c) {
 
 void check(TableReader& in, FluidConfig& fluid, const std::vector<FluidConfig>& others, const Case&) {
   require_own_name(in, fluid, others);
-  if (in.sound({"material"}) &&
+  if (in.valid({"material"}) &&
       equation_of_state::caloric(fluid.material.material.equation_of_state) == equation_of_state::Caloric::incremental)
     in.problem("material", "its equation of state gives differences of pressure only; a fluid needs p(rho, e)");
 }
@@ -377,7 +377,7 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
   }
   if (profile && varies(fill)) in.problem("profile", "a state varies by a profile or by formulas; give one of the two");
   check_gas_state(in, fill, c, elsewhere);
-  if (in.sound({"shape"})) check_formulas(in, fill, c);
+  if (in.valid({"shape"})) check_formulas(in, fill, c);
   if (profile && !fill.energy && !varies(fill)) check_rows(in, fill, *profile, c);
   if (others.empty() && in.has("shape")) in.problem("shape", "the first [[gas.fill]] fills all of the box; leave it out");
   if (!others.empty() && !in.has("shape") && !fill.energy)
@@ -393,14 +393,14 @@ void check(TableReader& in, FillConfig& fill, const std::vector<FillConfig>& oth
 }
 
 void check(TableReader& in, EdgeConfig& edge, const std::vector<EdgeConfig>& others, const Case& c) {
-  const bool side_known = in.sound({"side"});
+  const bool side_known = in.valid({"side"});
   bool taken = false;
   for (std::size_t n = 0; n < others.size(); ++n)
-    taken = taken || (others[n].side == edge.side && in.sound_in_file({fmt::format("gas.edge.{}.side", n)}));
+    taken = taken || (others[n].side == edge.side && in.valid_in_file({fmt::format("gas.edge.{}.side", n)}));
   if (side_known && taken) in.problem("side", "this side is given twice; give each once");
   if (side_known && geometry_known(in) && static_cast<std::size_t>(edge.side) / 2 >= dimensions_of(c))
     in.problem("side", fmt::format("in {} dimension{} there is no such side", c.dimensions(), c.dimensions() == 1 ? "" : "s"));
-  if (!in.sound({"kind"})) {  // what is wrong whatever the kind is meant to be
+  if (!in.valid({"kind"})) {  // what is wrong whatever the kind is meant to be
     if (in.has("fluid") || c.gas->fluids.size() == 1) check_fluid_of(in, edge, c);
     if (edge.density && edge.temperature) in.problem(two_densities);
     check_existence(in, edge, c);
@@ -469,13 +469,13 @@ void check(TableReader& in, GasBodyConfig& body, const std::vector<GasBodyConfig
   require_file_name(in, body.name);
   if (!geometry_known(in)) return;
   if (c.dimensions() == 1) return in.problem("in one dimension there are no bodies in the gas; take plane");
-  if (in.sound({"axis"})) require_component_in_geometry(in, body.axis, c);
+  if (in.valid({"axis"})) require_component_in_geometry(in, body.axis, c);
   const bool round = is_round(c.geometry);
-  const bool motion_known = in.sound({"velocity", "rotation", "radial_velocity"});
+  const bool motion_known = in.valid({"velocity", "rotation", "radial_velocity"});
   if (body.mass) {
     if (body.velocity != Vector{} || body.rotation != Vector{} || body.radial_velocity != 0.0 || body.amplitude)
       in.problem("mass", "the gas drives a body with a mass from rest: a motion would be ignored; remove one of the two");
-    if (round && in.sound({"axis"}) && body.axis != Axis::y)
+    if (round && in.valid({"axis"}) && body.axis != Axis::y)
       in.problem("axis", "about an axis of symmetry a body can only move along it: y");
   } else {
     if (body.axis != Axis::x) in.problem("axis", "it would be ignored: only a body with a mass is driven along it");
@@ -491,7 +491,7 @@ void check(TableReader& in, GasBodyConfig& body, const std::vector<GasBodyConfig
   }
   if (round && body.radial_velocity != 0.0 && body.centre[0] != 0.0)
     in.problem("centre", "about an axis of symmetry the centre of a radial motion lies on it: x = 0");
-  if (in.sound({"radial_velocity", "radius"}) && (body.radial_velocity != 0.0) != (body.radius > 0.0))
+  if (in.valid({"radial_velocity", "radius"}) && (body.radial_velocity != 0.0) != (body.radius > 0.0))
     in.problem(body.radius > 0.0 ? "radius" : "radial_velocity", body.radius > 0.0
                                                                      ? "it would be ignored: there is no radial velocity"
                                                                      : "give `radius` as well: where it is so");
@@ -508,12 +508,12 @@ void check_gas(TableReader& in, const Case& c) {
     in.problem("lower", "x = " + in_metres(gas.lower[0]) + "; a radius is not negative");
   if (is_round(c.geometry) && c.gravity[0] != 0.0) in.problem("lower", "gravity along the radius x is not possible");
   if (!gas.bodies.empty()) check_with_bodies(in, c);
-  if (sound_in_all(in, "edge", gas.edges.size(), "side") && sound_in_all(in, "edge", gas.edges.size(), "kind"))
+  if (valid_in_all(in, "edge", gas.edges.size(), "side") && valid_in_all(in, "edge", gas.edges.size(), "kind"))
     check_edges_together(in, c);
 }
 
 void check_gauge(TableReader& in, GaugeConfig& gauge, const Case& c) {
-  const bool kind_known = in.sound({"kind"});
+  const bool kind_known = in.valid({"kind"});
   if (kind_known && gauge.kind != GaugeKind::point && gauge.kind != GaugeKind::line)
     in.problem("kind", "in gas a gauge is a point or a line");
   if (gauge.moves.value_or(false)) in.problem("moves", "in gas a gauge stands still");
@@ -532,7 +532,7 @@ void check_fields(TableReader& in, const std::vector<std::string>& wanted, const
 }
 
 void check_in_box(TableReader& in, const Vector& from, const Vector& to, const Case& c) {
-  if (!in.sound_in_file({"geometry", "gas.lower", "gas.upper"}) || !in.sound({"from", "to"})) return;
+  if (!in.valid_in_file({"geometry", "gas.lower", "gas.upper"}) || !in.valid({"from", "to"})) return;
   for (std::size_t k = 0; k < dimensions_of(c); ++k)
     for (const auto& [key, place] : {std::pair{"from", from[k]}, {"to", to[k]}})
       if (c.gas->lower[k] < c.gas->upper[k] && (place < c.gas->lower[k] || place > c.gas->upper[k]))

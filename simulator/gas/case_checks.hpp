@@ -1,7 +1,7 @@
 #pragma once
 // What must hold of the gas of a case file beyond the single value. Each check reports what is wrong to the table it stands in.
 // `c` is the case as far as it has been read: its gas as far as it precedes what is checked. Each check is done if what it
-// rests on is sound, whatever else is wrong.
+// rests on is valid, whatever else is wrong.
 
 #include <string>
 #include <string_view>

@@ -31,14 +31,14 @@ struct Cell {
 /// Straight cells, all alike.
 struct Lattice {
   const Cells& cells;
-  double h, room, area;  // m, m^3, m^2
+  double h, cell_volume, area;  // m, m^3, m^2
   int dimensions, fluids;
   std::array<bool, 3> periodic{};
 
   explicit Lattice(const Gas& gas)
       : cells(gas.cells),
         h(cells.cell_size),
-        room(std::pow(h, cells.dimensions)),
+        cell_volume(std::pow(h, cells.dimensions)),
         area(std::pow(h, cells.dimensions - 1)),
         dimensions(cells.dimensions),
         fluids(static_cast<int>(gas.fluids.size())) {
@@ -116,7 +116,7 @@ double specific_volume_at(const Fluid& fluid, double pressure, double energy, do
 /// False where there is none.
 bool find_equilibrium(const Gas& gas, const CellSet& s, const Lattice& lattice, const Cell& c, CellSet& q) {
   const auto fluids = static_cast<std::size_t>(lattice.fluids);
-  const double room = lattice.room;
+  const double cell_volume = lattice.cell_volume;
   Values mass(fluids), v(fluids), energy(fluids);
   std::vector<bool> here(fluids);
   double p = 0.0, weight = 0.0, density_of_all = 0.0;
@@ -124,10 +124,10 @@ bool find_equilibrium(const Gas& gas, const CellSet& s, const Lattice& lattice, 
   for (std::size_t r = 0; r < fluids; ++r) {
     const auto of = [&](int quantity) { return at(s, State::of(lattice.dimensions, static_cast<int>(r), quantity), c.place); };
     mass[r] = of(State::mass);
-    density_of_all += mass[r] / room;
-    here[r] = mass[r] > 0.0 && of(State::volume) > least_part * room;
+    density_of_all += mass[r] / cell_volume;
+    here[r] = mass[r] > 0.0 && of(State::volume) > least_part * cell_volume;
     if (!here[r]) continue;
-    v[r] = fluids == 1 ? room / mass[r] : of(State::volume) / mass[r], energy[r] = of(State::internal) / mass[r];
+    v[r] = fluids == 1 ? cell_volume / mass[r] : of(State::volume) / mass[r], energy[r] = of(State::internal) / mass[r];
     const auto now = slopes_of(gas.fluids[r].equation_of_state, 1.0 / v[r], energy[r]);
     const double soft = mass[r] * v[r] * v[r] / now.per_density;
     p += soft * now.pressure, weight += soft;
@@ -139,7 +139,7 @@ bool find_equilibrium(const Gas& gas, const CellSet& s, const Lattice& lattice, 
     double sum = -1.0, slope = 0.0;
     for (std::size_t r = 0; r < fluids; ++r) {
       if (!here[r]) continue;
-      const double density = mass[r] / room;
+      const double density = mass[r] / cell_volume;
       v[r] = specific_volume_at(gas.fluids[r], p, energy[r], v[r]);
       sum += density * v[r];
       slope += density * v[r] * v[r] / slopes_of(gas.fluids[r].equation_of_state, 1.0 / v[r], energy[r]).per_density;
@@ -155,7 +155,7 @@ bool find_equilibrium(const Gas& gas, const CellSet& s, const Lattice& lattice, 
     if (here[r]) {
       const auto now = slopes_of(gas.fluids[r].equation_of_state, 1.0 / v[r], energy[r]);
       const double square = now.per_density + now.pressure * now.per_energy * v[r] * v[r];
-      part = mass[r] * v[r] / room, compressibility = v[r] / square;
+      part = mass[r] * v[r] / cell_volume, compressibility = v[r] / square;
       sound = std::max(sound, std::sqrt(square));
     }
     const int n = static_cast<int>(r);
@@ -233,10 +233,10 @@ void find_velocities(const Gas& gas, const Lattice& lattice, const CellSet& s, c
       const double v = 2.0 * v_low * v_high / (v_low + v_high);
       velocity[r] = sum(State::momentum + a) / sum(State::mass) -
                     dt * v * (at(q, Equilibrium::pressure, d) - at(q, Equilibrium::pressure, c)) / lattice.h;
-      capacity[r] = lattice.room * part[r] / v;
+      capacity[r] = lattice.cell_volume * part[r] / v;
       mixture += capacity[r] * velocity[r], mass += capacity[r];
     }
-    exchange<double>(velocity, capacity, part, dt * lattice.room * gas.classic->momentum_exchange);
+    exchange<double>(velocity, capacity, part, dt * lattice.cell_volume * gas.classic->momentum_exchange);
     for (std::size_t r = 0; r < fluids; ++r)
       at(flow.speeds, flow.number(static_cast<int>(r), a), c) = part[r] > 0.0 ? velocity[r] : mixture / mass;
   }
@@ -255,7 +255,7 @@ void exchange_in_cell(const Gas& gas, const Lattice& lattice, const CellSet& q, 
     part[r] = at(q, Equilibrium::part(static_cast<int>(r)), c), mass[r] = capacity[r] = of(r, State::mass);
   for (int a = 0; a < lattice.dimensions; ++a) {
     for (std::size_t r = 0; r < fluids; ++r) x[r] = mass[r] > 0.0 ? of(r, State::momentum + a) / mass[r] : 0.0;
-    exchange<double>(x, capacity, part, dt * lattice.room * gas.classic->momentum_exchange);
+    exchange<double>(x, capacity, part, dt * lattice.cell_volume * gas.classic->momentum_exchange);
     for (std::size_t r = 0; r < fluids; ++r) of(r, State::momentum + a) = mass[r] * x[r];
   }
   if (gas.heat_exchange == 0.0) return;
@@ -266,7 +266,7 @@ void exchange_in_cell(const Gas& gas, const Lattice& lattice, const CellSet& q, 
     capacity[r] = mass[r] * (eos::energy(law, density, 1.0) - eos::energy(law, density, 0.0));
     x[r] = capacity[r] > 0.0 ? (of(r, State::internal) - cold[r]) / capacity[r] : 0.0;
   }
-  exchange<double>(x, capacity, part, dt * lattice.room * gas.heat_exchange);
+  exchange<double>(x, capacity, part, dt * lattice.cell_volume * gas.heat_exchange);
   for (std::size_t r = 0; r < fluids; ++r) of(r, State::internal) = cold[r] + capacity[r] * x[r];
 }
 
@@ -302,11 +302,11 @@ bool find_pressures(const Lattice& lattice, const CellSet& q, const Flow& flow, 
       most_out = std::max(most_out, swept_out);
       compliance += at(q, part, c.place) * at(q, Equilibrium::compressibility(r), c.place);
     }
-    change /= lattice.room * compliance;
+    change /= lattice.cell_volume * compliance;
     constexpr double least_pressure = 1e-12;
     at(pressures, Pressures::change, c.place) = change;
     at(pressures, Pressures::after, c.place) = std::max(at(q, Equilibrium::pressure, c.place) + change, least_pressure);
-    return !(most_out > lattice.room);
+    return !(most_out > lattice.cell_volume);
   });
 }
 
@@ -314,7 +314,7 @@ bool find_pressures(const Lattice& lattice, const CellSet& q, const Flow& flow, 
 void push_fluids(const Lattice& lattice, const CellSet& q, const CellSet& pressures, double dt, const CellPlace& c,
                  CellSet& s) {
   const int D = lattice.dimensions;
-  const double room = lattice.room;
+  const double cell_volume = lattice.cell_volume;
   const auto face_pressure = [&](const CellPlace& low, const CellPlace& high) {
     const double density_low = at(q, Equilibrium::density, low), density_high = at(q, Equilibrium::density, high);
     return (at(pressures, Pressures::after, low) * density_high + at(pressures, Pressures::after, high) * density_low) /
@@ -327,8 +327,8 @@ void push_fluids(const Lattice& lattice, const CellSet& q, const CellSet& pressu
       own(State::momentum + a) -=
           dt * part * lattice.area * (face_pressure(c, lattice.next(c, a, 1)) - face_pressure(lattice.next(c, a, -1), c));
     const double change = at(pressures, Pressures::change, c);
-    own(State::internal) += room * part * compressibility * at(pressures, Pressures::after, c) * change;
-    own(State::volume) -= room * part * compressibility * change;
+    own(State::internal) += cell_volume * part * compressibility * at(pressures, Pressures::after, c) * change;
+    own(State::volume) -= cell_volume * part * compressibility * change;
   }
 }
 
@@ -340,7 +340,7 @@ CellSet carried_by(const Lattice& lattice, const CellSet& s) {
     const CellPlace& c = cell.place;
     for (int r = 0; r < fluids; ++r) {
       const double mass = at(s, State::of(D, r, State::mass), c);
-      at(carried, State::of(D, r, State::mass), c) = mass / lattice.room;
+      at(carried, State::of(D, r, State::mass), c) = mass / lattice.cell_volume;
       for (int n = State::mass + 1; n < State::count(D); ++n)
         at(carried, State::of(D, r, n), c) = mass > 0.0 ? at(s, State::of(D, r, n), c) / mass : 0.0;
     }
@@ -432,14 +432,13 @@ void open_classic(Gas& gas) {
   for_each_own_cell(gas.cells, [&](const Cell& c) {
     double mass = 0.0, kinetic = 0.0;
     const auto of = [&](int quantity) { return at(gas.content, quantity, c.place); };
-    const auto first = [&](int r) { return Content::fluids(D) + r * gas.fluid_quantities(); };
-    for (int r = 0; r < lattice.fluids; ++r) mass += of(first(r));
+    for (int r = 0; r < lattice.fluids; ++r) mass += of(Content::of(D, r, Content::mass));
     for (int a = 0; a < D; ++a) kinetic += 0.5 * of(Content::momentum + a) * of(Content::momentum + a) / mass;
     for (int r = 0; r < lattice.fluids; ++r) {
       const auto own = [&](int quantity) -> double& { return at(s, State::of(D, r, quantity), c.place); };
-      own(State::mass) = of(first(r));
-      own(State::volume) = lattice.fluids == 1 ? of(Content::room) : of(first(r) + Content::volume);
-      own(State::internal) = lattice.fluids == 1 ? of(Content::energy) - kinetic : of(first(r) + Content::internal);
+      own(State::mass) = of(Content::of(D, r, Content::mass));
+      own(State::volume) = lattice.fluids == 1 ? of(Content::cell_volume) : of(Content::of(D, r, Content::volume));
+      own(State::internal) = lattice.fluids == 1 ? of(Content::energy) - kinetic : of(Content::of(D, r, Content::internal));
       for (int a = 0; a < D; ++a) own(State::momentum + a) = of(Content::momentum + a) * own(State::mass) / mass;
     }
   });
@@ -457,20 +456,19 @@ void show_classic(Gas& gas, Domain& domain) {
     double mass = 0.0, energy = 0.0;
     for (int r = 0; r < lattice.fluids; ++r) {
       const auto own = [&](int quantity) { return at(s, State::of(D, r, quantity), c); };
-      const int first = Content::fluids(D) + r * gas.fluid_quantities();
       mass += own(State::mass), energy += own(State::internal);
       for (int a = 0; a < D; ++a) {
         const double p = own(State::momentum + a);
         momentum[static_cast<std::size_t>(a)] += p;
         if (own(State::mass) > 0.0) energy += 0.5 * p * p / own(State::mass);
       }
-      at(gas.content, first, c) = own(State::mass);
+      at(gas.content, Content::of(D, r, Content::mass), c) = own(State::mass);
       if (lattice.fluids == 1) continue;
-      at(gas.content, first + Content::volume, c) = at(q, Equilibrium::part(r), c) * lattice.room;
-      at(gas.content, first + Content::internal, c) = own(State::internal);
+      at(gas.content, Content::of(D, r, Content::volume), c) = at(q, Equilibrium::part(r), c) * lattice.cell_volume;
+      at(gas.content, Content::of(D, r, Content::internal), c) = own(State::internal);
     }
     at(gas.content, Content::energy, c) = energy;
-    at(gas.primitive, Primitive::density, c) = mass / lattice.room;
+    at(gas.primitive, Primitive::density, c) = mass / lattice.cell_volume;
     at(gas.primitive, Primitive::pressure, c) = at(q, Equilibrium::pressure, c);
     at(gas.primitive, Primitive::sound_speed, c) = at(q, Equilibrium::sound, c);
     for (int a = 0; a < D; ++a) {

@@ -7,7 +7,7 @@
 namespace brisance::simulator::gas {
 
 /// Of its volume a cell keeps more than this part in the Lagrangian phase, or the step is too long for it.
-inline constexpr double least_room = 0.2;
+inline constexpr double least_volume_ratio = 0.2;
 
 /// Difference across the donor of a face, of the values in the two cells on either side of it (before, low, high, after); `up`:
 /// the low one gives. Third order where the field is smooth, steep where it jumps; see limiter.hpp.

@@ -96,99 +96,152 @@ void cool_traces(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shar
   }
 }
 
-struct Largest {
-  double wave = 0.0, motion = 0.0;
+/// What eight cells side by side hold, as wholes.
+template <int D>
+struct Pack {
+  std::size_t block;
+  int number;  // in the block
+  std::uint8_t inside;
+  LanesMask active = lanes_of(inside);
+  Lanes cell_volume, mass, density;  // m^3, kg, kg/m^3
+  Unset<Lanes, D> velocity;          // m/s
+  Lanes internal;                    // J
+
+  Pack(const Gas& gas, std::size_t of_block, int k, std::uint8_t of_box)
+      : block(of_block),
+        number(k),
+        inside(of_box),
+        cell_volume(at(gas.content, Content::cell_volume)),
+        mass(at(gas.content, Content::of(D, 0, Content::mass))),
+        internal(at(gas.content, Content::energy)) {
+    for (std::size_t r = 1; r < gas.fluids.size(); ++r) mass += at(gas.content, Content::of(D, r, Content::mass));
+    density = mass / cell_volume;
+    Lanes kinetic(0.0);
+    for (std::size_t a = 0; a < D; ++a) {
+      const Lanes momentum = at(gas.content, Content::momentum + static_cast<int>(a));
+      velocity[a] = momentum / mass, kinetic += 0.5 * momentum * velocity[a];
+    }
+    internal -= kinetic;
+  }
+  template <class AnyCellSet>
+  auto& at(AnyCellSet& set, int quantity) const {
+    return set.at(block, quantity)[number];
+  }
+  void put(CellSet& set, int quantity, const Lanes& value) const {
+    Lanes& old = at(set, quantity);
+    old = select(active, value, old);
+  }
+};
+
+/// Its answer to compression.
+struct Response {
+  Lanes pressure, bulk_modulus, gruneisen;  // Pa, Pa, 1
 };
 
 template <int D>
-Largest equilibrium_of(Gas& gas, std::size_t block) {
-  const std::size_t fluids = gas.fluids.size();
-  Largest largest;
-  std::vector<FluidShare> shares(fluids);
+Response response_of(const Fluid& fluid, const Pack<D>& p) {
+  const Lanes density = p.density, energy = p.internal / p.mass;
+  const auto at = slopes_of(fluid.equation_of_state, density, energy);
+  const Lanes gruneisen = at.per_energy / density, least = Lanes(least_bulk_modulus(fluid.equation_of_state, 1.0)) * density;
+  return {at.pressure, max(Lanes(density * at.per_density + at.pressure * gruneisen), least), gruneisen};
+}
+
+/// The fluids of the cells. Cells that are not of the box hold anything: to look for its pressure can take very long, so the
+/// first fluid fills them, as it usually is.
+template <int D>
+void load_shares(const Gas& gas, const Pack<D>& p, std::vector<FluidShare>& shares) {
+  for (std::size_t r = 0; r < shares.size(); ++r) {
+    const Fluid& fluid = gas.fluids[r];
+    const double usual = r == 0 ? fluid.usual_density : 0.0;
+    const auto load = [&](int quantity, double beyond) {
+      return select(p.active, p.at(gas.content, Content::of(D, r, quantity)), Lanes(beyond));
+    };
+    shares[r].mass = load(Content::mass, usual), shares[r].volume = load(Content::volume, r == 0 ? 1.0 : 0.0);
+    shares[r].internal = load(Content::internal, usual * fluid.usual_energy);
+  }
+}
+
+/// Keeps what part of the compressibility of the cells each fluid has; returns their response.
+template <int D>
+Response response_of(Gas& gas, const Pack<D>& p, const std::vector<FluidShare>& shares, const Lanes& pressure) {
+  Lanes compliance(0.0), gruneisen(0.0), impedance_ratio(0.0);
+  for (const FluidShare& s : shares) {
+    compliance += select(is_present(s.volume, s.mass, p.cell_volume), s.volume / s.bulk_modulus, Lanes(0.0));
+    gruneisen += s.volume / p.cell_volume * s.gruneisen;
+  }
+  // The square of a fluid's impedance over the cell's is its part of the mass over that of the compressibility.
+  for (std::size_t r = 0; r < shares.size(); ++r) {
+    const FluidShare& s = shares[r];
+    const LanesMask present = is_present(s.volume, s.mass, p.cell_volume);
+    Lanes& share = p.at(gas.primitive, Primitive::share(D, static_cast<int>(r)));
+    share = select(present, s.volume / (s.bulk_modulus * compliance), Lanes(0.0));
+    impedance_ratio += sqrt(share * s.mass / p.mass);
+  }
+  p.at(gas.primitive, Primitive::impedance_ratio(D, static_cast<int>(shares.size()))) = min(impedance_ratio, Lanes(1.0));
+  return {pressure, p.cell_volume / compliance, gruneisen};
+}
+
+/// Brings the fluids of the cells to one pressure; `fastest`: m/s, of the waves of the step before.
+template <int D>
+Response come_to_equilibrium(Gas& gas, const Pack<D>& p, std::vector<FluidShare>& shares, double fastest) {
+  load_shares(gas, p, shares);
+  // Where velocities have mixed, kinetic energy has become heat.
+  Lanes heat = select(p.active, p.internal, shares[0].internal);
+  for (const FluidShare& s : shares) heat -= s.internal;
+  share_heat(gas.fluids, shares, heat);
+  warm_cold_fluids(gas.fluids, shares);
+  cool_traces(gas.fluids, shares, fastest);
+  const Lanes pressure = equilibrate(gas.fluids, shares, select(p.active, p.cell_volume, Lanes(1.0)));
+  for (std::size_t r = 0; r < shares.size(); ++r) {
+    p.put(gas.content, Content::of(D, r, Content::volume), shares[r].volume);
+    p.put(gas.content, Content::of(D, r, Content::internal), shares[r].internal);
+  }
+  return response_of(gas, p, shares, pressure);
+}
+
+/// 1/s; see Gas.
+struct Rates {
+  double wave = 0.0, motion = 0.0;
+  /// A state that is no state must not pass for one without waves.
+  void note(double other_wave, double other_motion) {
+    wave = other_wave < wave ? wave : other_wave;
+    motion = std::max(motion, other_motion);
+  }
+};
+
+/// Returns the largest rates of the cells.
+template <int D>
+Rates put_primitives(Gas& gas, const Pack<D>& p, const Response& response) {
+  const Lanes sound = sqrt(response.bulk_modulus / p.density);
+  p.put(gas.primitive, Primitive::density, p.density), p.put(gas.primitive, Primitive::pressure, response.pressure);
+  p.put(gas.primitive, Primitive::sound_speed, sound), p.put(gas.primitive, Primitive::gruneisen, response.gruneisen);
+  Lanes speed(0.0), motion(0.0);
+  for (std::size_t a = 0; a < D; ++a) {
+    const Lanes u = p.velocity[a];
+    p.put(gas.primitive, Primitive::velocity + static_cast<int>(a), u);
+    speed += abs(u), motion = max(motion, abs(u));
+  }
   const double inverse_cell_size = 1.0 / gas.cells.cell_size;
+  const Lanes wave = (speed + static_cast<double>(D) * sound) * inverse_cell_size;
+  Rates largest;
+  for (int l = 0; l < 8; ++l)
+    if (p.inside >> l & 1) largest.note(wave[l], motion[l] * inverse_cell_size);
+  return largest;
+}
+
+template <int D>
+Rates find_equilibrium_of(Gas& gas, std::size_t block) {
+  Rates largest;
+  std::vector<FluidShare> shares(gas.fluids.size());
   const double fastest =
       gas.wave_rate > 0.0 ? gas.wave_rate * gas.cells.cell_size : 1e150;  // nobody knows before the first step
   for (int k = 0; k < gas.cells.packs(); ++k) {
     const std::uint8_t inside = cells_inside(gas.cells, block, k);
     if (inside == 0) continue;
-    const LanesMask active = lanes_of(inside);
-    const Lanes room = gas.content.at(block, Content::room)[k];
-    Lanes mass(0.0);
-    for (std::size_t r = 0; r < fluids; ++r)
-      mass += shares[r].mass =
-          gas.content.at(block, Content::fluids(D) + static_cast<int>(r) * gas.fluid_quantities() + Content::mass)[k];
-    const Lanes density = mass / room;
-    Lanes u[D], speed(0.0), motion(0.0), kinetic(0.0);
-    for (int a = 0; a < D; ++a) {
-      const Lanes p = gas.content.at(block, Content::momentum + a)[k];
-      u[a] = p / mass, kinetic += 0.5 * p * u[a];
-      speed += abs(u[a]), motion = max(motion, abs(u[a]));
-    }
-    const Lanes internal = gas.content.at(block, Content::energy)[k] - kinetic;
-    Lanes pressure, bulk, gruneisen(0.0);
-    if (fluids == 1) {
-      const auto at = slopes_of(gas.fluids[0].equation_of_state, density, Lanes(internal / mass));
-      pressure = at.pressure, gruneisen = at.per_energy / density;
-      bulk = density * at.per_density + pressure * gruneisen;
-      bulk = max(bulk, Lanes(least_bulk_modulus(gas.fluids[0].equation_of_state, 1.0)) * density);
-    } else {
-      for (std::size_t r = 0; r < fluids; ++r) {
-        const int first = Content::fluids(D) + 3 * static_cast<int>(r);
-        shares[r].volume = gas.content.at(block, first + Content::volume)[k];
-        shares[r].internal = gas.content.at(block, first + Content::internal)[k];
-      }
-      // Cells that are not of the box hold anything: to look for its pressure can take very long.
-      const Lanes space = select(active, room, Lanes(1.0));
-      for (std::size_t r = 0; r < fluids; ++r) {
-        const Fluid& fluid = gas.fluids[r];
-        const double here = r == 0 ? fluid.usual_density : 0.0;
-        shares[r].mass = select(active, shares[r].mass, Lanes(here));
-        shares[r].volume = select(active, shares[r].volume, Lanes(r == 0 ? 1.0 : 0.0));
-        shares[r].internal = select(active, shares[r].internal, Lanes(here * fluid.usual_energy));
-      }
-      // Where velocities have mixed, kinetic energy has become heat.
-      Lanes heat = select(active, internal, shares[0].internal);
-      for (std::size_t r = 0; r < fluids; ++r) heat -= shares[r].internal;
-      share_heat(gas.fluids, shares, heat);
-      warm_cold_fluids(gas.fluids, shares);
-      cool_traces(gas.fluids, shares, fastest);
-      pressure = equilibrate(gas.fluids, shares, space);
-      Lanes compliance(0.0);
-      for (std::size_t r = 0; r < fluids; ++r) {
-        const int first = Content::fluids(D) + 3 * static_cast<int>(r);
-        Lanes& volume = gas.content.at(block, first + Content::volume)[k];
-        Lanes& energy = gas.content.at(block, first + Content::internal)[k];
-        volume = select(active, shares[r].volume, volume), energy = select(active, shares[r].internal, energy);
-        const LanesMask present = is_present(shares[r].volume, shares[r].mass, room);
-        compliance += select(present, shares[r].volume / shares[r].bulk_modulus, Lanes(0.0));
-        gruneisen += shares[r].volume / room * shares[r].gruneisen;
-      }
-      // The square of a fluid's impedance over the cell's is its part of the mass over that of the compressibility.
-      Lanes softness(0.0);
-      for (std::size_t r = 0; r < fluids; ++r) {
-        Lanes& share = gas.primitive.at(block, Primitive::share(D, static_cast<int>(r)))[k];
-        const LanesMask present = is_present(shares[r].volume, shares[r].mass, room);
-        share = select(present, shares[r].volume / (shares[r].bulk_modulus * compliance), Lanes(0.0));
-        softness += sqrt(share * shares[r].mass / mass);
-      }
-      gas.primitive.at(block, Primitive::softness(D, static_cast<int>(fluids)))[k] = min(softness, Lanes(1.0));
-      bulk = room / compliance;
-    }
-    const Lanes sound = sqrt(bulk / density);
-    const auto put = [&](int quantity, const Lanes& value) {
-      Lanes& at = gas.primitive.at(block, quantity)[k];
-      at = select(active, value, at);
-    };
-    put(Primitive::density, density), put(Primitive::pressure, pressure), put(Primitive::sound_speed, sound);
-    put(Primitive::gruneisen, gruneisen);
-    for (int a = 0; a < D; ++a) put(Primitive::velocity + a, u[a]);
-    const Lanes wave = (speed + static_cast<double>(D) * sound) * inverse_cell_size;
-    for (int l = 0; l < 8; ++l) {
-      if (!(inside >> l & 1)) continue;
-      // A state that is no state must not pass for one without waves.
-      largest.wave = wave[l] < largest.wave ? largest.wave : wave[l];
-      largest.motion = std::max(largest.motion, motion[l] * inverse_cell_size);
-    }
+    const Pack<D> p(gas, block, k, inside);
+    const Response response = shares.size() == 1 ? response_of(gas.fluids[0], p) : come_to_equilibrium(gas, p, shares, fastest);
+    const Rates rates = put_primitives(gas, p, response);
+    largest.note(rates.wave, rates.motion);
   }
   return largest;
 }
@@ -205,9 +258,9 @@ bool all_cells_hold_heat(Gas& gas, const CellSet& content) {
       const auto at = [&](int quantity) { return content.at(block, quantity)[k]; };
       Lanes mass(0.0), square(0.0), cold(0.0);
       for (int r = 0; r < fluids; ++r) {
-        const int first = Content::fluids(D) + r * gas.fluid_quantities();
         const Fluid& fluid = gas.fluids[static_cast<std::size_t>(r)];
-        const Lanes own = at(first + Content::mass), volume = at(fluids == 1 ? Content::room : first + Content::volume);
+        const Lanes own = at(Content::of(D, r, Content::mass)),
+                    volume = at(fluids == 1 ? Content::cell_volume : Content::of(D, r, Content::volume));
         mass += own;
         cold += own * coldest_energy(fluid, Lanes(select(volume > 0.0, own / volume, Lanes(fluid.usual_density))));
       }
@@ -224,14 +277,11 @@ bool all_cells_hold_heat(Gas& gas, const CellSet& content) {
 }
 
 void find_equilibrium(Gas& gas, Domain& domain) {
-  std::vector<Largest> largest(gas.cells.mine.size());
-  for_each_own_block(gas, [&](auto D, std::size_t i, std::size_t block) { largest[i] = equilibrium_of<D()>(gas, block); });
-  gas.wave_rate = gas.motion_rate = 0.0;
-  for (const Largest& l : largest) {
-    gas.wave_rate = l.wave < gas.wave_rate ? gas.wave_rate : l.wave;
-    gas.motion_rate = std::max(gas.motion_rate, l.motion);
-  }
-  gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
+  std::vector<Rates> rates(gas.cells.mine.size());
+  for_each_own_block(gas, [&](auto D, std::size_t i, std::size_t block) { rates[i] = find_equilibrium_of<D()>(gas, block); });
+  Rates largest;
+  for (const Rates& r : rates) largest.note(r.wave, r.motion);
+  gas.wave_rate = domain.maximum(largest.wave), gas.motion_rate = domain.maximum(largest.motion);
 }
 
 }  // namespace brisance::simulator::gas

@@ -14,7 +14,7 @@ double content(const Gas& gas, const CellPlace& at, int quantity) {
   return gas.content.cell(at.block, quantity, at.cell);
 }
 double of_fluid(const Gas& gas, const CellPlace& at, std::size_t fluid, int quantity) {
-  return content(gas, at, Content::fluids(gas.dimensions()) + static_cast<int>(fluid) * gas.fluid_quantities() + quantity);
+  return content(gas, at, Content::of(gas.dimensions(), fluid, quantity));
 }
 double primitive(const Gas& gas, const CellPlace& at, int quantity) {
   return gas.primitive.cell(at.block, quantity, at.cell);
@@ -41,7 +41,7 @@ std::size_t fluid_of_most(const Gas& gas, const CellPlace& at) {
 /// Of the fluid that fills most of the cell: fluids share a pressure, not a temperature.
 double temperature_of(const Gas& gas, const CellPlace& at) {
   const std::size_t most = fluid_of_most(gas, at);
-  double volume = content(gas, at, Content::room), internal = internal_energy_of(gas, at);
+  double volume = content(gas, at, Content::cell_volume), internal = internal_energy_of(gas, at);
   if (gas.fluids.size() > 1) {
     volume = of_fluid(gas, at, most, Content::volume), internal = of_fluid(gas, at, most, Content::internal);
   }
@@ -73,7 +73,7 @@ std::vector<Field> fields(int dimensions, const std::vector<std::string>& fluids
        [](const Gas& g, const CellPlace& at, int) { return primitive(g, at, Primitive::sound_speed); }}};
   for (std::size_t r = 0; fluids.size() > 1 && r < fluids.size(); ++r)
     all.push_back({"fraction_" + fluids[r], "1", "part of the volume", 1, [r](const Gas& g, const CellPlace& at, int) {
-                     return of_fluid(g, at, r, Content::volume) / content(g, at, Content::room);
+                     return of_fluid(g, at, r, Content::volume) / content(g, at, Content::cell_volume);
                    }});
   return all;
 }
@@ -87,7 +87,8 @@ std::vector<Field> fields_of(const Gas& gas) {
 MostOf most_of(const Gas& gas, const CellPlace& at) {
   const std::size_t most = fluid_of_most(gas, at);
   const bool alone = gas.fluids.size() == 1;
-  return {gas.fluids[most].name, alone ? 1.0 : of_fluid(gas, at, most, Content::volume) / content(gas, at, Content::room)};
+  return {gas.fluids[most].name,
+          alone ? 1.0 : of_fluid(gas, at, most, Content::volume) / content(gas, at, Content::cell_volume)};
 }
 
 std::string in_words(const MostOf& most) {

@@ -52,9 +52,9 @@ void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell
   const auto i = static_cast<std::size_t>(gas.cells.index(block, cell)[0] - gas.cells.metric.first);
   const double whole = gas.cells.metric.volume[i];
   for (int q = 0; q < content.quantities(); ++q) content.cell(block, q, cell) = 0.0;
-  content.cell(block, Content::room, cell) = whole;
+  content.cell(block, Content::cell_volume, cell) = whole;
   for (const auto& [part, filling] : portions) {
-    const double room = part * whole, mass = filling.density * room;
+    const double volume = part * whole, mass = filling.density * volume;
     const EquationOfState& law = gas.fluids[static_cast<std::size_t>(filling.fluid)].equation_of_state;
     const double internal = mass * internal_energy_of(law, filling);
     double kinetic = 0.0;
@@ -64,11 +64,12 @@ void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell
       kinetic += 0.5 * mass * u * u;
     }
     content.cell(block, Content::energy, cell) += internal + kinetic;
-    const int first = Content::fluids(D) + filling.fluid * gas.fluid_quantities();
-    content.cell(block, first + Content::mass, cell) += mass;
-    if (gas.fluid_quantities() == 1) continue;
-    content.cell(block, first + Content::volume, cell) += room;
-    content.cell(block, first + Content::internal, cell) += internal;
+    const auto of_fluid = [&](int quantity) -> double& {
+      return content.cell(block, Content::of(D, filling.fluid, quantity), cell);
+    };
+    of_fluid(Content::mass) += mass;
+    if (gas.fluids.size() == 1) continue;
+    of_fluid(Content::volume) += volume, of_fluid(Content::internal) += internal;
   }
 }
 void write_content(const Gas& gas, CellSet& content, std::size_t block, int cell, const Filling& filling) {
@@ -90,7 +91,7 @@ void write_primitive(Gas& gas, std::size_t block, int cell, const Filling& filli
   if (fluids == 1) return;
   for (int r = 0; r < fluids; ++r)
     set.cell(block, Primitive::share(gas.dimensions(), r), cell) = r == filling.fluid ? 1.0 : 0.0;
-  set.cell(block, Primitive::softness(gas.dimensions(), fluids), cell) = 1.0;
+  set.cell(block, Primitive::impedance_ratio(gas.dimensions(), fluids), cell) = 1.0;
 }
 
 }  // namespace brisance::simulator::gas

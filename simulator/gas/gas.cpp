@@ -22,37 +22,37 @@
 namespace brisance::simulator::gas {
 namespace {
 
-/// The room of a cell is what it was before the step, to the last bit.
+/// The volume of a cell is what it was before the step, to the last bit.
 void settle(Gas& gas) {
   parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
     const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
-    std::copy_n(gas.content.at(block, Content::room), gas.cells.packs(), gas.moved.at(block, Content::room));
+    std::copy_n(gas.content.at(block, Content::cell_volume), gas.cells.packs(), gas.moved.at(block, Content::cell_volume));
   });
   std::swap(gas.content, gas.moved);
 }
 
 /// Marked cells do without slopes in the next attempt. Neighbours read who does while cells are being marked, so the marks
 /// stand apart until the attempt is over.
-void make_marked_cells_plain(Gas& gas) {
+void make_marked_cells_first_order(Gas& gas) {
   for (const std::int32_t b : gas.cells.mine)
     for (int k = 0; k < gas.cells.packs(); ++k) {
       Lanes& mark = gas.marks.at(static_cast<std::size_t>(b), 0)[k];
-      Lanes& plain = gas.half_step.at(static_cast<std::size_t>(b), HalfStep::plain(gas.dimensions()))[k];
-      plain = max(plain, mark), mark = Lanes(0.0);
+      Lanes& first_order = gas.half_step.at(static_cast<std::size_t>(b), HalfStep::first_order(gas.dimensions()))[k];
+      first_order = max(first_order, mark), mark = Lanes(0.0);
     }
 }
 void forget_marks(Gas& gas) {
   for (const std::int32_t b : gas.cells.mine)
     std::fill_n(gas.marks.at(static_cast<std::size_t>(b), 0), gas.cells.packs(), Lanes(0.0));
 }
-/// No cell is plain any more; how many of this process were.
-std::int64_t forget_plain_cells(Gas& gas) {
+/// No cell is of first order any more; counts those of this process that were.
+std::int64_t forget_first_order_cells(Gas& gas) {
   std::int64_t count = 0;
   for (const std::int32_t b : gas.cells.mine)
     for (int k = 0; k < gas.cells.packs(); ++k) {
-      Lanes& plain = gas.half_step.at(static_cast<std::size_t>(b), HalfStep::plain(gas.dimensions()))[k];
-      for (int l = 0; l < 8; ++l) count += plain[l] > 0.0 ? 1 : 0;
-      plain = Lanes(0.0);
+      Lanes& first_order = gas.half_step.at(static_cast<std::size_t>(b), HalfStep::first_order(gas.dimensions()))[k];
+      for (int l = 0; l < 8; ++l) count += first_order[l] > 0.0 ? 1 : 0;
+      first_order = Lanes(0.0);
     }
   return count;
 }
@@ -177,20 +177,20 @@ Outcome advance_fluids(Gas& gas, double dt, Domain& domain) {
     return Outcome::done;
   }
   const bool with_bodies = !gas.bodies.empty();
-  if (gas.careful) forget_marks(gas);  // of a step that was rejected
+  if (gas.any_first_order) forget_marks(gas);  // of a step that was rejected
   if (with_bodies && !timed(gas, Phase::bodies, [&] { return move_bodies(gas, dt, domain); })) return Outcome::rejected;
-  gas.careful = false;
+  gas.any_first_order = false;
   const int most_attempts = gas.implicit ? 1 : 3;  // the faces of the solve know no slopes to do without
   for (int attempt = 1; !attempt_step(gas, dt, domain); ++attempt) {
     clear_step(gas.passages);
-    gas.careful = true;
+    gas.any_first_order = true;
     if (attempt == most_attempts) {  // the marks stay: they tell why
-      forget_plain_cells(gas);
+      forget_first_order_cells(gas);
       return Outcome::rejected;
     }
-    make_marked_cells_plain(gas);
+    make_marked_cells_first_order(gas);
   }
-  if (gas.careful) gas.plain += forget_plain_cells(gas);
+  if (gas.any_first_order) gas.first_order_cell_steps += forget_first_order_cells(gas);
   timed(gas, Phase::ghosts, [&] { with_bodies ? settle_with_bodies(gas, dt, domain) : settle(gas); });
   if (with_bodies) timed(gas, Phase::reaction, [&] { react_around_bodies(gas, dt, domain); });
   timed(gas, Phase::ghosts, [&] { book_step(gas.passages); });
@@ -220,7 +220,7 @@ Totals totals(const Gas& gas, Domain& domain) {
       const double open = open_part(gas, block, c);
       double mass = 0.0, square = 0.0;
       for (std::size_t r = 0; r < fluids; ++r) {
-        const double m = open * gas.content.cell(block, Content::fluids(D) + static_cast<int>(r) * gas.fluid_quantities(), c);
+        const double m = open * gas.content.cell(block, Content::of(D, r, Content::mass), c);
         sum[r] += m, mass += m;
       }
       for (int a = 0; a < D; ++a) {
@@ -319,7 +319,7 @@ std::vector<double> numbers_of(const Gas& gas) {
                               static_cast<double>(gas.flattened),
                               static_cast<double>(gas.cells.mine.size()),
                               static_cast<double>(gas.contents()),
-                              static_cast<double>(gas.plain)};
+                              static_cast<double>(gas.first_order_cell_steps)};
   for (const CellSet* set : kept_sets(gas))
     for (const std::int32_t b : gas.cells.mine) {
       const double* first = reinterpret_cast<const double*>(set->at(static_cast<std::size_t>(b), 0));
@@ -349,7 +349,7 @@ void restore(Gas& gas, const std::vector<double>& numbers, Domain& domain) {
     throw std::runtime_error("its gas is of another case or another version of this program");
   const double* next = numbers.data();
   gas.time = next[0], gas.step = static_cast<std::int64_t>(next[1]), gas.wave_rate = next[2], gas.motion_rate = next[3];
-  gas.flattened = static_cast<std::int64_t>(next[4]), gas.plain = static_cast<std::int64_t>(next[7]);
+  gas.flattened = static_cast<std::int64_t>(next[4]), gas.first_order_cell_steps = static_cast<std::int64_t>(next[7]);
   next += 8;
   for (CellSet* set : kept_sets(gas))
     for (const std::int32_t b : gas.cells.mine) {

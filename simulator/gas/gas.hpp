@@ -8,6 +8,7 @@
 // Lagrange-projection schemes (Chalons, Girardin & Kokh, J. Comput. Phys. 335 (2017) 885) and total instead of internal energy.
 
 #include <array>
+#include <concepts>
 #include <functional>
 #include <optional>
 #include <string>
@@ -71,13 +72,22 @@ struct Burn {
 
 /// Content of a cell, per whole cell, radian or steradian (see Metric). With one fluid its volume and energy are not kept.
 struct Content {
-  static constexpr int room = 0;      // m^3, volume of the cell; what it has become in the Lagrangian phase
-  static constexpr int energy = 1;    // J, total
-  static constexpr int momentum = 2;  // kg m/s, as many components as dimensions
+  static constexpr int cell_volume = 0;  // m^3; what it has become in the Lagrangian phase
+  static constexpr int energy = 1;       // J, total
+  static constexpr int momentum = 2;     // kg m/s, as many components as dimensions
   static constexpr int fluids(int dimensions) { return momentum + dimensions; }
   static constexpr int mass = 0;      // kg, of a fluid
   static constexpr int volume = 1;    // m^3
   static constexpr int internal = 2;  // J
+  /// Of a fluid: its mass, volume or internal energy.
+  static constexpr int of(int dimensions, std::integral auto fluid, int quantity) {
+    return fluids(dimensions) + 3 * static_cast<int>(fluid) + quantity;
+  }
+  static constexpr int fluid_of(int dimensions, int index) { return (index - fluids(dimensions)) / 3; }
+  /// Whether this is that quantity of some fluid.
+  static constexpr bool is_of_fluid(int dimensions, int index, int quantity) {
+    return index >= fluids(dimensions) && (index - fluids(dimensions)) % 3 == quantity;
+  }
 };
 /// State of a cell as the pressure equilibrium gives it.
 struct Primitive {
@@ -86,15 +96,15 @@ struct Primitive {
   /// With several fluids: the part of the cell's compressibility that each has, and the mean of their impedances by these parts
   /// over the impedance of the cell, 1 or less.
   static constexpr int share(int dimensions, int fluid) { return count(dimensions) + fluid; }
-  static constexpr int softness(int dimensions, int fluids) { return share(dimensions, fluids); }
+  static constexpr int impedance_ratio(int dimensions, int fluids) { return share(dimensions, fluids); }
   static constexpr int all(int dimensions, int fluids) {
-    return fluids > 1 ? softness(dimensions, fluids) + 1 : count(dimensions);
+    return fluids > 1 ? impedance_ratio(dimensions, fluids) + 1 : count(dimensions);
   }
 };
-/// What half a step changes in the Lagrangian frame, and which cells have to do without slopes (1, others 0).
+/// What half a step changes in the Lagrangian frame, and which cells are of first order, without slopes (1, others 0).
 struct HalfStep {
   static constexpr int pressure = 0, velocity = 1;
-  static constexpr int plain(int dimensions) { return 1 + dimensions; }
+  static constexpr int first_order(int dimensions) { return 1 + dimensions; }
   /// Of the area across an axis, in parts of itself: by how much it grows (the same axis), how far it tilts towards another
   /// one. There is none in one dimension. See moving_faces.hpp.
   static constexpr int area(int dimensions, int across, int towards) { return 2 + dimensions + dimensions * across + towards; }
@@ -215,12 +225,12 @@ struct Gas {
   double motion_rate = 0.0;     // 1/s, largest |u|/h of one axis
   double diffusion_rate = 0.0;  // 1/s, largest sum over the axes of 2 (diffusivity)/h^2
   std::array<double, static_cast<std::size_t>(Phase::count)> seconds{};  // of wall time, by phase, in this process
-  std::int64_t flattened = 0;  // slopes that were taken back so that no cell loses more energy than it has
-  bool careful = false;        // some cells do without slopes in this step, or it would leave them without volume or heat
-  std::int64_t plain = 0;      // how often cells of this process did
-  Bodies bodies;               // solids in the gas
-  std::int64_t capped = 0;     // cells times steps in which less has burned than the law wanted
-  std::vector<OutsideRange> outside;  // of each fluid, in this process
+  std::int64_t flattened = 0;               // slopes that were taken back so that no cell loses more energy than it has
+  bool any_first_order = false;             // of the cells in this step: with slopes it would leave them without volume or heat
+  std::int64_t first_order_cell_steps = 0;  // cells of this process times steps
+  Bodies bodies;                            // solids in the gas
+  std::int64_t capped = 0;                  // cells times steps in which less has burned than the law wanted
+  std::vector<OutsideRange> outside;        // of each fluid, in this process
 
   bool empty() const { return fluids.empty(); }
   int dimensions() const { return cells.dimensions; }
@@ -233,9 +243,9 @@ struct Gas {
            line_faces;
   }
   Lanes* swept_faces(std::size_t block, int axis, int pencil) { return swept.data() + first_face(block, axis, pencil); }
-  /// Quantities of a fluid's content.
-  int fluid_quantities() const { return fluids.size() == 1 ? 1 : 3; }
-  int contents() const { return Content::fluids(dimensions()) + static_cast<int>(fluids.size()) * fluid_quantities(); }
+  int contents() const {
+    return fluids.size() == 1 ? Content::of(dimensions(), 0, Content::mass) + 1 : Content::of(dimensions(), fluids.size(), 0);
+  }
 };
 
 /// Allocates the cells and fills them with what is at their middles; makes the gas ready for its first step.

@@ -186,7 +186,7 @@ void open_implicit(Gas& gas, Domain& domain) {
 bool solve_pressure(Gas& gas, double dt, Domain& domain) {
   const std::vector<std::int32_t>& mine = gas.cells.mine;
   for (const std::int32_t b : mine)
-    for (int q = 0; q < HalfStep::plain(gas.dimensions()); ++q)
+    for (int q = 0; q < HalfStep::first_order(gas.dimensions()); ++q)
       std::fill_n(gas.half_step.at(static_cast<std::size_t>(b), q), gas.cells.packs(), Lanes(0.0));
   share_half_step(gas, dt, domain);  // what lies beyond the edges
 

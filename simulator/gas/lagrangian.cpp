@@ -69,15 +69,15 @@ void half_step_of(Gas& gas, std::size_t block, double dt) {
 /// What the faces of a pencil are made of.
 template <int D>
 struct FaceStates {
-  Pencil density, pressure, sound, gruneisen, velocity[D], half_pressure, half_velocity, plain;
+  Pencil density, pressure, sound, gruneisen, velocity[D], half_pressure, half_velocity, first_order;
   // These acoustic_faces finds.
-  Pencil softness;                         // see load_softness
+  Pencil impedance_ratio;                  // see load_impedance_ratio
   Pencil stretch;                          // change of the velocity along the pencil over a cell
   Unset<FaceSide, reach> to_low, to_high;  // what the cells send to their faces
 };
 template <int D>
 void load_states(const Gas& gas, std::size_t block, int axis, int n, FaceStates<D>& s) {
-  if (gas.careful) load<D>(gas.cells, gas.half_step, block, HalfStep::plain(D), axis, n, s.plain);
+  if (gas.any_first_order) load<D>(gas.cells, gas.half_step, block, HalfStep::first_order(D), axis, n, s.first_order);
   load<D>(gas.cells, gas.primitive, block, Primitive::density, axis, n, s.density);
   load<D>(gas.cells, gas.primitive, block, Primitive::pressure, axis, n, s.pressure);
   load<D>(gas.cells, gas.primitive, block, Primitive::sound_speed, axis, n, s.sound);
@@ -89,10 +89,11 @@ void load_states(const Gas& gas, std::size_t block, int axis, int n, FaceStates<
 
 /// Part of the impedances of a pencil's cells that their waves have.
 template <int D>
-void load_softness(const Gas& gas, std::size_t block, int axis, int n, double dt, FaceStates<D>& s) {
-  load<D>(gas.cells, gas.primitive, block, Primitive::softness(D, static_cast<int>(gas.fluids.size())), axis, n, s.softness);
+void load_impedance_ratio(const Gas& gas, std::size_t block, int axis, int n, double dt, FaceStates<D>& s) {
+  load<D>(gas.cells, gas.primitive, block, Primitive::impedance_ratio(D, static_cast<int>(gas.fluids.size())), axis, n,
+          s.impedance_ratio);
   for (std::size_t c = ring - 1; c <= ring + line; ++c)
-    s.softness[c] = softness_in_step(s.softness[c], s.sound[c], D * dt / gas.cells.cell_size);
+    s.impedance_ratio[c] = impedance_ratio_in_step(s.impedance_ratio[c], s.sound[c], D * dt / gas.cells.cell_size);
 }
 
 /// Velocity and pressure of the faces of a pencil, by the waves between its cells.
@@ -104,7 +105,7 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, double dt, Fac
   Unset<FaceSide, reach>&to_low = s.to_low, &to_high = s.to_high;
   Pencil speed;
   for (std::size_t c = ring - 1; c <= ring + line; ++c) {
-    const LanesMask first_order = gas.careful ? s.plain[c] > 0.0 : LanesMask(false);
+    const LanesMask first_order = gas.any_first_order ? s.first_order[c] > 0.0 : LanesMask(false);
     const auto side = [&](double towards) {
       return face_side(s.density, s.pressure, velocity, s.half_pressure, s.half_velocity, c, towards, half_head, first_order);
     };
@@ -116,15 +117,15 @@ void acoustic_faces(Gas& gas, std::size_t block, int axis, int n, double dt, Fac
     speed[c] = square;
   }
   const bool several = gas.fluids.size() > 1;
-  if (several) load_softness<D>(gas, block, axis, n, dt, s);
+  if (several) load_impedance_ratio<D>(gas, block, axis, n, dt, s);
   const auto face = [&](std::size_t f, double least_mach) {
     const std::size_t l = ring + f - 1, r = ring + f;
     FaceSide L = to_high[l], R = to_low[r];
-    if (gas.careful) {  // a cell that does without slopes makes its neighbour's side of the face do so
-      L = trusted(L, s.density[l], s.pressure[l], velocity[l], s.plain[r] > 0.0);
-      R = trusted(R, s.density[r], s.pressure[r], velocity[r], s.plain[l] > 0.0);
+    if (gas.any_first_order) {  // a cell that does without slopes makes its neighbour's side of the face do so
+      L = trusted(L, s.density[l], s.pressure[l], velocity[l], s.first_order[r] > 0.0);
+      R = trusted(R, s.density[r], s.pressure[r], velocity[r], s.first_order[l] > 0.0);
     }
-    if (several) L.density *= s.softness[l], R.density *= s.softness[r];  // which the impedances are made of
+    if (several) L.density *= s.impedance_ratio[l], R.density *= s.impedance_ratio[r];  // which the impedances are made of
     const Lanes shock = 1.0 + 0.5 * max(s.gruneisen[l], s.gruneisen[r]);
     return star(L, R, s.sound[l], s.sound[r], shock, sqrt(max(speed[l], speed[r])), least_mach);
   };
@@ -171,7 +172,7 @@ void note_fans(Gas& gas, std::size_t block, int axis, int n, double dt, const Fa
     const Lanes density = donor(s.density), sound = donor(s.sound), bulk = density * sound * sound;
     LanesMask opens = may_open_fan(pressure, face_pressure[f], bulk);
     if (none(opens)) continue;
-    if (gas.careful) opens &= !(s.plain[l] + s.plain[r] > 0.0);
+    if (gas.any_first_order) opens &= !(s.first_order[l] + s.first_order[r] > 0.0);
     opens &= !enters_by_pressure(f);
     const Lanes gamma = 1.0 + donor(s.gruneisen);
     gas.fans[block].push_back({axis, n, static_cast<int>(f), opens, select(up, s.to_high[l].density, s.to_low[r].density),
@@ -256,7 +257,8 @@ void hold_rows_together(Gas& gas, std::size_t block, int axis, int n, double dt,
 template <int D>
 FaceGain<D> gain_of_faces(const Gas& gas, std::size_t block, int axis, int n, const FaceStates<D>& s) {
   FaceGain<D> gain(gas, block, axis, n);
-  for (std::size_t f = 0; gas.careful && f < line_faces; ++f) gain.forget(f, s.plain[ring + f - 1] + s.plain[ring + f] > 0.0);
+  for (std::size_t f = 0; gas.any_first_order && f < line_faces; ++f)
+    gain.forget(f, s.first_order[ring + f - 1] + s.first_order[ring + f] > 0.0);
   for (auto fan = gas.fans[block].rbegin(); fan != gas.fans[block].rend() && fan->axis == axis && fan->pencil == n; ++fan)
     gain.forget(static_cast<std::size_t>(fan->face), fan->opens);
   return gain;
@@ -291,132 +293,154 @@ void grow_faces(Gas& gas, std::size_t block, int axis, int n, double dt, const F
   push_along_faces<D>(gas, block, axis, n, along);
 }
 
+/// What the velocities and pressures of the faces of a pencil do to its cells.
+template <int D>
+void move_pencil(Gas& gas, std::size_t block, int axis, int n, double dt, bool rubs) {
+  FaceStates<D> states;
+  FacePencil face_velocity, face_pressure, flow;  // flow: volume per time
+  if (rubs) load_states<D>(gas, block, axis, n, states);
+  if (gas.implicit)
+    solved_faces<D>(gas, block, axis, n, dt, face_velocity, face_pressure);
+  else
+    acoustic_faces<D>(gas, block, axis, n, dt, states, face_velocity, face_pressure);
+  for (std::size_t c = ring - 1; gas.implicit && rubs && c <= ring + line; ++c)
+    states.stretch[c] = slope(states.velocity[axis], c);
+  PencilMetric metric;
+  load_metric<D>(gas.cells, block, axis, n, metric);
+  if (!gas.implicit) note_fans<D>(gas, block, axis, n, dt, states, metric, face_velocity, face_pressure);
+  FacePencil area, force, power;  // m^2, N, W: area on the way; what the pressure does along the axis
+  for (std::size_t f = 0; f < line_faces; ++f) {
+    area[f] = axis == 0 ? area_on_the_way(gas.cells, metric.area[f], dt * face_velocity[f]) : metric.area[f];
+    flow[f] = area[f] * face_velocity[f], force[f] = area[f] * face_pressure[f];
+  }
+  Pencil cell_volume, momentum, energy;
+  load_own<D>(gas.moved, block, Content::cell_volume, axis, n, cell_volume);
+  load_own<D>(gas.moved, block, Content::energy, axis, n, energy);
+  load_own<D>(gas.moved, block, Content::momentum + axis, axis, n, momentum);
+  push_on_sides(area, face_pressure, dt, momentum);
+  if constexpr (D > 1)
+    if (!gas.implicit)
+      grow_faces<D>(gas, block, axis, n, dt, states, metric, face_velocity, face_pressure, flow, force, momentum);
+  Lanes* swept = gas.swept_faces(block, axis, n);
+  for (std::size_t f = 0; f < line_faces; ++f) swept[f] = dt * flow[f], power[f] = face_pressure[f] * flow[f];
+  for (std::size_t f = 0; f < line; ++f) {
+    cell_volume[ring + f] += dt * (flow[f + 1] - flow[f]);
+    energy[ring + f] -= dt * (power[f + 1] - power[f]);
+  }
+  store<D>(gas.moved, block, Content::cell_volume, axis, n, cell_volume);
+  store<D>(gas.moved, block, Content::momentum + axis, axis, n, momentum);
+  store<D>(gas.moved, block, Content::energy, axis, n, energy);
+  book_pressure(gas, block, axis, n, dt, force, power);
+  if constexpr (D > 1)
+    if (rubs) hold_rows_together<D>(gas, block, axis, n, dt, states, metric);
+}
+
+/// The weight of the gas of some cells (kg), and its work, which are booked.
+template <int D>
+void pull_by_gravity(Gas& gas, std::size_t block, int k, double dt, const Lanes& mass) {
+  if (gas.gravity == Vector{}) return;
+  const std::uint8_t inside = cells_inside(gas.cells, block, k);
+  auto& pull = gas.passages[static_cast<std::size_t>(gas.passage_of[block].back())].step;
+  Lanes work(0.0);
+  for (int a = 0; a < D; ++a) {
+    const double g = gas.gravity[static_cast<std::size_t>(a)];
+    if (g == 0.0) continue;
+    Lanes& momentum = gas.moved.at(block, Content::momentum + a)[k];
+    momentum += (dt * g) * mass;
+    work += (0.5 * dt * g) * (gas.content.at(block, Content::momentum + a)[k] + momentum);
+    for (int l = 0; l < 8; ++l)
+      if (inside >> l & 1) pull.momentum[static_cast<std::size_t>(a)] += dt * g * mass[l];
+  }
+  gas.moved.at(block, Content::energy)[k] += work;
+  for (int l = 0; l < 8; ++l)
+    if (inside >> l & 1) pull.energy += work[l];
+}
+
+/// Several fluids of some cells share the growth of these (m^3) and the work (J) by their compressibility. What the limits
+/// leave over goes to the fluid with most volume.
+template <int D>
+void share_change(Gas& gas, std::size_t block, int k, const Lanes& growth, const Lanes& work) {
+  const int fluids = static_cast<int>(gas.fluids.size());
+  const auto of = [&](int r, int quantity) -> Lanes& { return gas.moved.at(block, Content::of(D, r, quantity))[k]; };
+  Lanes rest(1.0), largest(0.0);
+  for (int r = 0; r < fluids; ++r) largest = max(largest, of(r, Content::volume));
+  LanesMask given(false);
+  for (int r = 0; r < fluids; ++r) {
+    Lanes& volume = of(r, Content::volume);
+    const LanesMask most_of_it = (volume == largest) & !given;
+    given |= most_of_it;
+    const Lanes wanted = gas.primitive.at(block, Primitive::share(D, r))[k];
+    const Lanes share = select(most_of_it, Lanes(0.0), limited_share(wanted, growth, volume));
+    rest -= share;
+    volume += share * growth, of(r, Content::internal) += share * work;
+  }
+  given = LanesMask(false);
+  for (int r = 0; r < fluids; ++r) {
+    const Lanes before = gas.content.at(block, Content::of(D, r, Content::volume))[k];
+    const LanesMask most_of_it = (before == largest) & !given;
+    given |= most_of_it;
+    of(r, Content::volume) += select(most_of_it, rest * growth, Lanes(0.0));
+    of(r, Content::internal) += select(most_of_it, rest * work, Lanes(0.0));
+  }
+}
+
+/// What several moved fluids of some cells have beyond their energies at T = 0, J.
+template <int D>
+Lanes heat_of_fluids(const Gas& gas, std::size_t block, int k) {
+  Lanes heat(0.0);
+  for (std::size_t r = 0; r < gas.fluids.size(); ++r) {
+    const auto of = [&](int quantity) { return gas.moved.at(block, Content::of(D, r, quantity))[k]; };
+    const Lanes mass = of(Content::mass), volume = of(Content::volume);
+    const Lanes density = select(volume > 0.0, mass / volume, Lanes(gas.fluids[r].usual_density));
+    heat += of(Content::internal) - mass * coldest_energy(gas.fluids[r], density);
+  }
+  return heat;
+}
+
+/// The fluids of some cells after their faces have moved. Returns which cells bear it, and marks the others.
+template <int D>
+LanesMask move_fluids(Gas& gas, std::size_t block, int k, double dt) {
+  const auto at = [&](CellSet& set, int quantity) -> Lanes& { return set.at(block, quantity)[k]; };
+  Lanes mass(0.0);
+  for (std::size_t r = 0; r < gas.fluids.size(); ++r) mass += at(gas.content, Content::of(D, r, Content::mass));
+  for (int q = Content::fluids(D); q < gas.contents(); ++q) at(gas.moved, q) = at(gas.content, q);
+  pull_by_gravity<D>(gas, block, k, dt, mass);
+  const auto internal_energy = [&](CellSet& set) {
+    Lanes square(0.0);
+    for (int a = 0; a < D; ++a) square += at(set, Content::momentum + a) * at(set, Content::momentum + a);
+    return Lanes(at(set, Content::energy) - 0.5 * square / mass);
+  };
+  const Lanes before = at(gas.content, Content::cell_volume), volume = at(gas.moved, Content::cell_volume);
+  const Lanes internal = internal_energy(gas.moved);
+  Lanes heat;
+  if (gas.fluids.size() == 1) {
+    heat = internal - mass * coldest_energy(gas.fluids[0], Lanes(mass / volume));
+  } else {
+    const Lanes of_friction = at(heat_of_friction(gas), Content::energy);
+    share_change<D>(gas, block, k, volume - before, internal - internal_energy(gas.content) - of_friction);
+    if (any(abs(of_friction) > 0.0)) warm_alike(gas, gas.moved, block, k, of_friction);
+    heat = heat_of_fluids<D>(gas, block, k);
+  }
+  const LanesMask active = lanes_of(cells_inside(gas.cells, block, k));
+  const LanesMask bears = ((volume > least_volume_ratio * before) & (heat > 0.0)) | !active;
+  if (!all(bears)) at(gas.marks, 0) = select(bears, at(gas.marks, 0), Lanes(1.0));
+  return bears;
+}
+
 template <int D>
 bool move(Gas& gas, std::size_t block, double dt) {
   using Shape = BlockShape<D>;
-  const Cells& cells = gas.cells;
-  for (int q = Content::room; q < Content::fluids(D); ++q)
+  for (int q = Content::cell_volume; q < Content::fluids(D); ++q)
     std::copy_n(gas.content.at(block, q), Shape::packs, gas.moved.at(block, q));
   if (gas.fluids.size() > 1) std::fill_n(heat_of_friction(gas).at(block, Content::energy), Shape::packs, Lanes(0.0));
   // Friction is explicit: implicit steps bear it where they are no longer than those of waves.
   constexpr double longest = 0.51;  // Courant number, and rounding
   const bool rubs = !gas.implicit || dt * gas.wave_rate <= longest;
   gas.fans[block].clear();
-  for (int axis = 0; axis < D; ++axis) {
-    for (int n = 0; n < Shape::pencils; ++n) {
-      FaceStates<D> states;
-      FacePencil face_velocity, face_pressure, flow;  // flow: volume per time
-      if (rubs) load_states<D>(gas, block, axis, n, states);
-      if (gas.implicit)
-        solved_faces<D>(gas, block, axis, n, dt, face_velocity, face_pressure);
-      else
-        acoustic_faces<D>(gas, block, axis, n, dt, states, face_velocity, face_pressure);
-      for (std::size_t c = ring - 1; gas.implicit && rubs && c <= ring + line; ++c)
-        states.stretch[c] = slope(states.velocity[axis], c);
-      PencilMetric metric;
-      load_metric<D>(cells, block, axis, n, metric);
-      if (!gas.implicit) note_fans<D>(gas, block, axis, n, dt, states, metric, face_velocity, face_pressure);
-      FacePencil area, force, power;  // m^2, N, W: area on the way; what the pressure does along the axis
-      for (std::size_t f = 0; f < line_faces; ++f) {
-        area[f] = axis == 0 ? area_on_the_way(cells, metric.area[f], dt * face_velocity[f]) : metric.area[f];
-        flow[f] = area[f] * face_velocity[f], force[f] = area[f] * face_pressure[f];
-      }
-      Pencil room, momentum, energy;
-      load_own<D>(gas.moved, block, Content::room, axis, n, room);
-      load_own<D>(gas.moved, block, Content::energy, axis, n, energy);
-      load_own<D>(gas.moved, block, Content::momentum + axis, axis, n, momentum);
-      push_on_sides(area, face_pressure, dt, momentum);
-      if constexpr (D > 1)
-        if (!gas.implicit)
-          grow_faces<D>(gas, block, axis, n, dt, states, metric, face_velocity, face_pressure, flow, force, momentum);
-      Lanes* swept = gas.swept_faces(block, axis, n);
-      for (std::size_t f = 0; f < line_faces; ++f) swept[f] = dt * flow[f], power[f] = face_pressure[f] * flow[f];
-      for (std::size_t f = 0; f < line; ++f) {
-        room[ring + f] += dt * (flow[f + 1] - flow[f]);
-        energy[ring + f] -= dt * (power[f + 1] - power[f]);
-      }
-      store<D>(gas.moved, block, Content::room, axis, n, room);
-      store<D>(gas.moved, block, Content::momentum + axis, axis, n, momentum);
-      store<D>(gas.moved, block, Content::energy, axis, n, energy);
-      book_pressure(gas, block, axis, n, dt, force, power);
-      if constexpr (D > 1)
-        if (rubs) hold_rows_together<D>(gas, block, axis, n, dt, states, metric);
-    }
-  }
-
+  for (int axis = 0; axis < D; ++axis)
+    for (int n = 0; n < Shape::pencils; ++n) move_pencil<D>(gas, block, axis, n, dt, rubs);
   LanesMask good(true);
-  const int fluids = static_cast<int>(gas.fluids.size());
-  for (int k = 0; k < Shape::packs; ++k) {
-    const std::uint8_t inside = cells_inside(cells, block, k);
-    const LanesMask active = lanes_of(inside);
-    const auto at = [&](CellSet& set, int quantity) -> Lanes& { return set.at(block, quantity)[k]; };
-    Lanes mass(0.0);
-    for (int r = 0; r < fluids; ++r) {
-      const int first = Content::fluids(D) + r * gas.fluid_quantities();
-      mass += at(gas.content, first + Content::mass);
-      for (int q = 0; q < gas.fluid_quantities(); ++q) at(gas.moved, first + q) = at(gas.content, first + q);
-    }
-    Lanes kinetic_before(0.0), kinetic(0.0), weight(0.0);
-    for (int a = 0; a < D; ++a) {
-      const double g = gas.gravity[static_cast<std::size_t>(a)];
-      Lanes& momentum = at(gas.moved, Content::momentum + a);
-      const Lanes before = at(gas.content, Content::momentum + a);
-      if (g != 0.0) {
-        momentum += (dt * g) * mass;
-        weight += (0.5 * dt * g) * (before + momentum);
-        Passage& pull = gas.passages[static_cast<std::size_t>(gas.passage_of[block].back())];
-        for (int l = 0; l < 8; ++l)
-          if (inside >> l & 1) pull.step.momentum[static_cast<std::size_t>(a)] += dt * g * mass[l];
-      }
-      kinetic_before += before * before, kinetic += momentum * momentum;
-    }
-    at(gas.moved, Content::energy) += weight;
-    if (gas.gravity != Vector{})
-      for (int l = 0; l < 8; ++l)
-        if (inside >> l & 1) gas.passages[static_cast<std::size_t>(gas.passage_of[block].back())].step.energy += weight[l];
-    const Lanes room = at(gas.content, Content::room), moved = at(gas.moved, Content::room);
-    const Lanes internal_before = at(gas.content, Content::energy) - 0.5 * kinetic_before / mass;
-    const Lanes internal = at(gas.moved, Content::energy) - 0.5 * kinetic / mass;
-    Lanes thermal(0.0);
-    if (fluids == 1) {
-      thermal = internal - mass * coldest_energy(gas.fluids[0], Lanes(mass / moved));
-    } else {
-      Lanes rest(1.0), largest(0.0);
-      const auto of = [&](int r, int quantity) -> Lanes& { return at(gas.moved, Content::fluids(D) + 3 * r + quantity); };
-      const Lanes heat = at(heat_of_friction(gas), Content::energy);
-      const Lanes growth = moved - room, work = internal - internal_before - heat;
-      for (int r = 0; r < fluids; ++r) largest = max(largest, of(r, Content::volume));
-      LanesMask given(false);
-      for (int r = 0; r < fluids; ++r) {
-        Lanes& volume = of(r, Content::volume);
-        const LanesMask most_of_it = (volume == largest) & !given;
-        given |= most_of_it;
-        const Lanes wanted = gas.primitive.at(block, Primitive::share(D, r))[k];
-        const Lanes share = select(most_of_it, Lanes(0.0), limited_share(wanted, growth, volume));
-        rest -= share;
-        volume += share * growth, of(r, Content::internal) += share * work;
-      }
-      given = LanesMask(false);
-      for (int r = 0; r < fluids; ++r) {
-        Lanes &volume = of(r, Content::volume), &energy = of(r, Content::internal);
-        const Lanes before = at(gas.content, Content::fluids(D) + 3 * r + Content::volume);
-        const LanesMask most_of_it = (before == largest) & !given;
-        given |= most_of_it;
-        volume += select(most_of_it, rest * growth, Lanes(0.0)), energy += select(most_of_it, rest * work, Lanes(0.0));
-      }
-      if (any(abs(heat) > 0.0)) warm_alike(gas, gas.moved, block, k, heat);
-      for (int r = 0; r < fluids; ++r) {
-        const Lanes volume = of(r, Content::volume), energy = of(r, Content::internal);
-        const Fluid& fluid = gas.fluids[static_cast<std::size_t>(r)];
-        const Lanes own_mass = of(r, Content::mass);
-        const Lanes density = select(volume > 0.0, own_mass / volume, Lanes(fluid.usual_density));
-        thermal += energy - own_mass * coldest_energy(fluid, density);
-      }
-    }
-    const LanesMask bears = ((moved > least_room * room) & (thermal > 0.0)) | !active;
-    if (!all(bears)) at(gas.marks, 0) = select(bears, at(gas.marks, 0), Lanes(1.0));
-    good &= bears;
-  }
+  for (int k = 0; k < Shape::packs; ++k) good &= move_fluids<D>(gas, block, k, dt);
   return all(good);
 }
 

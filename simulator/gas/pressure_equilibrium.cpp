@@ -20,14 +20,31 @@ constexpr double crushing = 0.5;
 template <class T>
 using OfFluids = boost::container::small_vector<T, 8, std::allocator<T>>;
 
+/// A fluid of eight cells in the search for their pressure p. It works against that: its energy is e0 - p (v - v0). Where it is
+/// next to without volume it is left alone, and its lanes compute with its usual state.
+struct FluidOnTheWay {
+  LanesMask present;
+  Lanes mass;                // kg; 0 where it is not present
+  Lanes v, v0, e0;           // m^3/kg, now and at the start; J/kg
+  Lanes pressure;            // Pa
+  Lanes stiffness, pushing;  // -dP/dv (Pa kg/m^3) and 1 - dP/dp along the way
+};
+struct Search {
+  OfFluids<FluidOnTheWay> fluids;
+  Lanes space;                      // m^3, for the fluids that are present
+  Lanes pressure, lowest, highest;  // Pa, of these
+  Lanes tolerance;                  // Pa
+  LanesMask done;
+  LanesMask crushed{false};  // one stands beside a pressure that crushes it
+};
+
 /// One lane, with certainty: the volume that the fluids take at a pressure falls with it, and the pressures they have now
 /// bracket the one sought.
-double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const OfFluids<LanesMask>& present,
-              double room, int l) {
+double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Search& s, int l) {
   double low = std::numeric_limits<double>::infinity(), high = -low, least = -low;
   for (std::size_t r = 0; r < fluids.size(); ++r) {
     const double m = shares[r].mass[l], v = shares[r].volume[l];
-    if (!present[r][l]) continue;
+    if (!s.fluids[r].present[l]) continue;
     const double p = eos::pressure(fluids[r].equation_of_state, m / v, shares[r].internal[l] / m);
     low = std::min(low, p), high = std::max(high, p);
     least = std::max(least, fluids[r].least_pressure);
@@ -50,13 +67,13 @@ double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares,
     const double p = 0.5 * (low + high);
     double sum = 0.0;
     for (std::size_t r = 0; r < fluids.size(); ++r)
-      if (present[r][l]) sum += volume_at(r, p);
-    (sum > room ? low : high) = p;
+      if (s.fluids[r].present[l]) sum += volume_at(r, p);
+    (sum > s.space[l] ? low : high) = p;
   }
   const double p = 0.5 * (low + high);
   for (std::size_t r = 0; r < fluids.size(); ++r) {
     const double before = shares[r].volume[l];
-    if (!present[r][l]) continue;
+    if (!s.fluids[r].present[l]) continue;
     const double now = volume_at(r, p);
     shares[r].internal.set(l, shares[r].internal[l] - p * (now - before));
     shares[r].volume.set(l, now);
@@ -64,9 +81,125 @@ double bisect(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares,
   return p;
 }
 
+/// From the states that the fluids have now. Sets their bulk moduli.
+Search begin_search(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& cell_volume) {
+  Search s;
+  s.fluids.resize(fluids.size());
+  s.space = cell_volume, s.lowest = Lanes(1e300), s.highest = Lanes(-1e300);
+  Lanes sum(0.0), weight(0.0), least(-1e300), stiffest(0.0);
+  for (std::size_t r = 0; r < fluids.size(); ++r) {
+    FluidOnTheWay& f = s.fluids[r];
+    const EquationOfState& law = fluids[r].equation_of_state;
+    f.present = is_present(shares[r].volume, shares[r].mass, cell_volume);
+    s.space -= select(f.present, Lanes(0.0), shares[r].volume);
+    f.mass = select(f.present, shares[r].mass, Lanes(0.0));
+    f.v0 = f.v = select(f.present, shares[r].volume / shares[r].mass, Lanes(1.0 / fluids[r].usual_density));
+    f.e0 = select(f.present, shares[r].internal / shares[r].mass, Lanes(fluids[r].usual_energy));
+    const auto at = slopes_of(law, Lanes(1.0 / f.v), f.e0);
+    const Lanes bulk =
+        max(Lanes(at.per_density / f.v + at.pressure * at.per_energy * f.v), Lanes(least_bulk_modulus(law, 1.0)) / f.v);
+    shares[r].bulk_modulus = bulk, f.pressure = at.pressure;
+    const Lanes compliance = f.mass * f.v / bulk;
+    sum += select(f.present, compliance * at.pressure, Lanes(0.0)), weight += compliance;
+    s.lowest = select(f.present, min(s.lowest, at.pressure), s.lowest);
+    s.highest = select(f.present, max(s.highest, at.pressure), s.highest);
+    least = select(f.present, max(least, Lanes(fluids[r].least_pressure)), least);
+    stiffest = select(f.present, max(stiffest, bulk), stiffest);
+  }
+  for (std::size_t r = 0; r < fluids.size(); ++r)
+    s.crushed |= s.fluids[r].present & (s.highest - s.fluids[r].pressure > crushing * shares[r].bulk_modulus);
+  // A liquid that pulls stretches a gas beside it, which cannot, to nothing: the gas would find another pressure below zero, at
+  // which it has less than no heat.
+  s.lowest = max(s.lowest, min(least, s.highest));
+  s.pressure = max(Lanes(sum / weight), s.lowest);
+  s.tolerance = 1e-14 * stiffest;
+  s.done = s.highest - s.lowest <= s.tolerance;
+  return s;
+}
+
+/// A step of Newton's method for all volumes and the pressure at once: the matrix is an arrow.
+void newton_step(const std::vector<Fluid>& fluids, const std::vector<FluidShare>& shares, Search& s) {
+  Lanes sum(0.0), free(0.0), slope(0.0);
+  for (std::size_t r = 0; r < fluids.size(); ++r) {
+    FluidOnTheWay& f = s.fluids[r];
+    const auto at = slopes_of(fluids[r].equation_of_state, Lanes(1.0 / f.v), Lanes(f.e0 - s.pressure * (f.v - f.v0)));
+    f.pressure = at.pressure;
+    f.stiffness = at.per_density / (f.v * f.v) + s.pressure * at.per_energy;
+    f.stiffness = max(f.stiffness, Lanes(1e-3) * shares[r].bulk_modulus / f.v);
+    f.pushing = 1.0 + at.per_energy * (f.v - f.v0);
+    sum += f.mass * f.v, free += f.mass * (f.pressure - s.pressure) / f.stiffness, slope += f.mass * f.pushing / f.stiffness;
+  }
+  const Lanes step = (free + sum - s.space) / slope;
+  const Lanes next = min(max(Lanes(s.pressure + step), s.lowest), s.highest);
+  Lanes largest(0.0);
+  for (std::size_t r = 0; r < fluids.size(); ++r) {
+    FluidOnTheWay& f = s.fluids[r];
+    const Lanes change = (f.pressure - s.pressure - f.pushing * (next - s.pressure)) / f.stiffness;
+    const Lanes limited = min(max(Lanes(f.v + change), Lanes(0.5 * f.v)), Lanes(2.0 * f.v));
+    largest = max(largest, select(f.present, abs(limited - f.v) / f.v * shares[r].bulk_modulus, Lanes(0.0)));
+    f.v = select(s.done, f.v, limited);
+  }
+  const Lanes moved = abs(next - s.pressure);
+  s.pressure = select(s.done, s.pressure, next);
+  s.done |= (moved <= s.tolerance) & (largest <= 1e2 * s.tolerance);
+}
+
+/// Whether the fluids fill their space. A trace that any pressure suits hides in the mean that the others have not come to
+/// theirs.
+LanesMask is_filled(const Search& s, const Lanes& cell_volume) {
+  constexpr double leak = 1e-9;  // of the cell
+  Lanes unfilled = s.space;
+  for (const FluidOnTheWay& f : s.fluids) unfilled -= f.mass * f.v;
+  return abs(unfilled) <= leak * cell_volume;
+}
+
+/// The work of the fluids that are present on their way, where they have come to its end.
+void work_against_pressure(const Search& s, std::vector<FluidShare>& shares) {
+  for (std::size_t r = 0; r < shares.size(); ++r) {
+    const FluidOnTheWay& f = s.fluids[r];
+    const LanesMask moves = f.present & s.done;
+    shares[r].internal = select(moves, shares[r].internal - f.mass * s.pressure * (f.v - f.v0), shares[r].internal);
+    shares[r].volume = select(moves, f.mass * f.v, shares[r].volume);
+  }
+}
+
+/// J, of the fluids that are present.
+Lanes energy_of_present(const Search& s, const std::vector<FluidShare>& shares) {
+  Lanes sum(0.0);
+  for (std::size_t r = 0; r < shares.size(); ++r) sum += select(s.fluids[r].present, shares[r].internal, Lanes(0.0));
+  return sum;
+}
+
+/// What rounding has left over of the volume and of the energy goes to the fluid with most volume.
+void give_rest_to_largest(const Search& s, std::vector<FluidShare>& shares, const Lanes& cell_volume, const Lanes& energy) {
+  Lanes largest(0.0), volumes(0.0);
+  for (const FluidShare& share : shares) volumes += share.volume, largest = max(largest, share.volume);
+  const Lanes rest = energy - energy_of_present(s, shares);
+  LanesMask given(false);
+  for (FluidShare& share : shares) {
+    const LanesMask most_of_it = (share.volume == largest) & !given;
+    given |= most_of_it;
+    share.volume = select(most_of_it, share.volume + (cell_volume - volumes), share.volume);
+    share.internal = select(most_of_it, share.internal + rest, share.internal);
+  }
+}
+
+void set_moduli(const std::vector<Fluid>& fluids, const Search& s, std::vector<FluidShare>& shares) {
+  for (std::size_t r = 0; r < fluids.size(); ++r) {
+    FluidShare& share = shares[r];
+    const EquationOfState& law = fluids[r].equation_of_state;
+    const Lanes density = select(s.fluids[r].present, share.mass / share.volume, Lanes(fluids[r].usual_density));
+    const Lanes energy = select(s.fluids[r].present, share.internal / share.mass, Lanes(fluids[r].usual_energy));
+    const auto at = slopes_of(law, density, energy);
+    share.bulk_modulus = max(Lanes(density * at.per_density + at.pressure * at.per_energy / density),
+                             Lanes(least_bulk_modulus(law, 1.0)) * density);
+    share.gruneisen = at.per_energy / density;
+  }
+}
+
 }  // namespace
 
-void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& room, int l) {
+void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& cell_volume, int l) {
   constexpr double bit = 0.1;     // of the volume
   constexpr int most_bits = 100;  // a gas without heat resists nothing; it keeps 3e-5 of its volume
   struct State {
@@ -80,7 +213,7 @@ void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, co
     std::size_t high = n, low = n;
     for (std::size_t r = 0; r < n; ++r) {
       const FluidShare& s = shares[r];
-      state[r].here = is_present(s.volume[l], s.mass[l], room[l]);
+      state[r].here = is_present(s.volume[l], s.mass[l], cell_volume[l]);
       if (!state[r].here) continue;
       const double density = s.mass[l] / s.volume[l];
       const auto at = slopes_of(fluids[r].equation_of_state, density, s.internal[l] / s.mass[l]);
@@ -108,117 +241,32 @@ void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, co
   }
 }
 
-Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& room,
+Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& cell_volume,
                   EquilibriumCount* count) {
-  const std::size_t n = fluids.size();
-  OfFluids<Lanes> v(n), v0(n), e0(n), m(n), residual(n), stiffness(n), push(n);
-  OfFluids<LanesMask> present(n);
-  Lanes pressure, weight, lowest, highest, least, stiffest, space;  // of those that are present
-  LanesMask crushed;
-  // Fluids next to without volume are left alone; their lanes compute with the numbers of the first fluid there is.
-  const auto look = [&] {
-    pressure = weight = stiffest = Lanes(0.0), lowest = Lanes(1e300), highest = least = Lanes(-1e300);
-    space = room;
-    for (std::size_t r = 0; r < n; ++r) {
-      present[r] = is_present(shares[r].volume, shares[r].mass, room);
-      space -= select(present[r], Lanes(0.0), shares[r].volume);
-      m[r] = select(present[r], shares[r].mass, Lanes(0.0));
-      v0[r] = v[r] = select(present[r], shares[r].volume / shares[r].mass, Lanes(1.0 / fluids[r].usual_density));
-      e0[r] = select(present[r], shares[r].internal / shares[r].mass, Lanes(fluids[r].usual_energy));
-      const auto at = slopes_of(fluids[r].equation_of_state, Lanes(1.0 / v[r]), e0[r]);
-      const Lanes bulk = max(Lanes(at.per_density / v[r] + at.pressure * at.per_energy * v[r]),
-                             Lanes(least_bulk_modulus(fluids[r].equation_of_state, 1.0)) / v[r]);
-      shares[r].bulk_modulus = bulk, shares[r].gruneisen = at.per_energy * v[r];
-      const Lanes compliance = m[r] * v[r] / bulk;
-      pressure += select(present[r], compliance * at.pressure, Lanes(0.0)), weight += compliance;
-      residual[r] = at.pressure;
-      lowest = select(present[r], min(lowest, at.pressure), lowest);
-      highest = select(present[r], max(highest, at.pressure), highest);
-      least = select(present[r], max(least, Lanes(fluids[r].least_pressure)), least);
-      stiffest = select(present[r], max(stiffest, bulk), stiffest);
-    }
-    crushed = LanesMask(false);
-    for (std::size_t r = 0; r < n; ++r) crushed |= present[r] & (highest - residual[r] > crushing * shares[r].bulk_modulus);
-  };
-  look();
-  if (any(crushed)) {
+  Search s = begin_search(fluids, shares, cell_volume);
+  if (any(s.crushed)) {
     for (int l = 0; l < 8; ++l)
-      if (crushed[l]) relax(fluids, shares, room, l);
-    look();
+      if (s.crushed[l]) relax(fluids, shares, cell_volume, l);
+    s = begin_search(fluids, shares, cell_volume);
   }
-  pressure /= weight;
-  // A liquid that pulls stretches a gas beside it, which cannot, to nothing: the gas would find another pressure below zero, at
-  // which it has less than no heat.
-  lowest = max(lowest, min(least, highest));
-  pressure = max(pressure, lowest);
-  const Lanes tolerance = 1e-14 * stiffest;
-  LanesMask done = highest - lowest <= tolerance;
+  const Lanes energy = energy_of_present(s, shares);
   constexpr int most_iterations = 15;
-  for (int i = 0; i < most_iterations && !all(done); ++i) {
-    // Newton for all volumes and the pressure at once: the matrix is an arrow.
-    Lanes sum(0.0), free(0.0), slope(0.0);
-    for (std::size_t r = 0; r < n; ++r) {
-      const auto at = slopes_of(fluids[r].equation_of_state, Lanes(1.0 / v[r]), Lanes(e0[r] - pressure * (v[r] - v0[r])));
-      residual[r] = at.pressure - pressure;
-      stiffness[r] = at.per_density / (v[r] * v[r]) + pressure * at.per_energy;  // -dP/dv along the path of work
-      stiffness[r] = max(stiffness[r], Lanes(1e-3) * shares[r].bulk_modulus / v[r]);
-      push[r] = 1.0 + at.per_energy * (v[r] - v0[r]);
-      sum += m[r] * v[r], free += m[r] * residual[r] / stiffness[r], slope += m[r] * push[r] / stiffness[r];
-    }
-    const Lanes step = (free + sum - space) / slope;
-    const Lanes next = min(max(Lanes(pressure + step), lowest), highest);
-    Lanes largest(0.0);
-    for (std::size_t r = 0; r < n; ++r) {
-      const Lanes change = (residual[r] - push[r] * (next - pressure)) / stiffness[r];
-      const Lanes limited = min(max(Lanes(v[r] + change), Lanes(0.5 * v[r])), Lanes(2.0 * v[r]));
-      largest = max(largest, select(present[r], abs(limited - v[r]) / v[r] * shares[r].bulk_modulus, Lanes(0.0)));
-      v[r] = select(done, v[r], limited);
-    }
+  for (int i = 0; i < most_iterations && !all(s.done); ++i) {
     if (count)
-      for (int l = 0; l < 8; ++l) count->iterations += done[l] ? 0.0 : 1.0;
-    const Lanes moved = abs(next - pressure);
-    pressure = select(done, pressure, next);
-    done |= (moved <= tolerance) & (largest <= 1e2 * tolerance);
+      for (int l = 0; l < 8; ++l) count->iterations += s.done[l] ? 0.0 : 1.0;
+    newton_step(fluids, shares, s);
   }
-  // A trace that any pressure suits hides in the mean that the others have not come to theirs.
-  Lanes unfilled = space;
-  for (std::size_t r = 0; r < n; ++r) unfilled -= m[r] * v[r];
-  constexpr double leak = 1e-9;  // of the room
-  done &= abs(unfilled) <= leak * room;
+  s.done &= is_filled(s, cell_volume);
   if (count) count->cells += 8.0;
-  Lanes largest_volume(0.0), volumes(0.0), energies(0.0), before(0.0);
-  for (std::size_t r = 0; r < n; ++r) before += select(present[r], shares[r].internal, Lanes(0.0));
-  std::vector<FluidShare> original;
-  if (!all(done)) original = shares;
-  for (std::size_t r = 0; r < n; ++r) {
-    shares[r].internal = select(present[r], shares[r].internal - m[r] * pressure * (v[r] - v0[r]), shares[r].internal);
-    shares[r].volume = select(present[r], m[r] * v[r], shares[r].volume);
-  }
-  for (int l = 0; l < 8 && !all(done); ++l) {
-    if (done[l] || !std::isfinite(room[l])) continue;
-    for (std::size_t r = 0; r < n; ++r)
-      shares[r].internal.set(l, original[r].internal[l]), shares[r].volume.set(l, original[r].volume[l]);
-    pressure.set(l, bisect(fluids, shares, present, space[l], l));
+  work_against_pressure(s, shares);
+  for (int l = 0; l < 8 && !all(s.done); ++l) {
+    if (s.done[l] || !std::isfinite(cell_volume[l])) continue;
+    s.pressure.set(l, bisect(fluids, shares, s, l));
     if (count) count->bisected += 1.0;
   }
-  // What rounding left over goes to the fluid with most volume.
-  for (std::size_t r = 0; r < n; ++r)
-    volumes += shares[r].volume, energies += select(present[r], shares[r].internal, Lanes(0.0)),
-        largest_volume = max(largest_volume, shares[r].volume);
-  LanesMask taken(false);
-  for (std::size_t r = 0; r < n; ++r) {
-    const LanesMask majority = (shares[r].volume == largest_volume) & !taken;
-    taken |= majority;
-    shares[r].volume = select(majority, shares[r].volume + (room - volumes), shares[r].volume);
-    shares[r].internal = select(majority, shares[r].internal + (before - energies), shares[r].internal);
-    const Lanes density = select(present[r], shares[r].mass / shares[r].volume, Lanes(fluids[r].usual_density));
-    const Lanes energy = select(present[r], shares[r].internal / shares[r].mass, Lanes(fluids[r].usual_energy));
-    const auto at = slopes_of(fluids[r].equation_of_state, density, energy);
-    shares[r].bulk_modulus = max(Lanes(density * at.per_density + at.pressure * at.per_energy / density),
-                                 Lanes(least_bulk_modulus(fluids[r].equation_of_state, 1.0)) * density);
-    shares[r].gruneisen = at.per_energy / density;
-  }
-  return pressure;
+  give_rest_to_largest(s, shares, cell_volume, energy);
+  set_moduli(fluids, s, shares);
+  return s.pressure;
 }
 
 }  // namespace brisance::simulator::gas

@@ -13,8 +13,8 @@ inline constexpr double least_fraction = 1e-12;
 
 /// Whether a cell (or each of eight) holds a fluid: what is next to without volume, or has no mass, is left alone.
 template <class Real>
-auto is_present(const Real& volume, const Real& mass, const Real& room) {
-  return (volume > least_fraction * room) & (mass > 0.0);
+auto is_present(const Real& volume, const Real& mass, const Real& cell_volume) {
+  return (volume > least_fraction * cell_volume) & (mass > 0.0);
 }
 
 /// A fluid of eight cells side by side, to be brought to one pressure with the others.
@@ -33,11 +33,11 @@ struct EquilibriumCount {
 /// gas without heat resists nothing. Changes volume (m^3) and internal energy (J) of that lane alone, not their sums. Pressure
 /// relaxation along isentropes as by Saurel, Petitpas & Berry, J. Comput. Phys. 228 (2009) 1678, who deal what is dissipated
 /// otherwise.
-void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& room, int lane);
+void relax(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& cell_volume, int lane);
 /// Moves volumes and energies until all fluids have one pressure (Pa), which it returns. What is left of jumps when those that
 /// crush have been relaxed is work against that final pressure, so the sums of volumes and of energies do not change. Absent
 /// fluids (no mass) are left alone.
-Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& room,
+Lanes equilibrate(const std::vector<Fluid>& fluids, std::vector<FluidShare>& shares, const Lanes& cell_volume,
                   EquilibriumCount* count = nullptr);
 
 }  // namespace brisance::simulator::gas

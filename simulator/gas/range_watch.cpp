@@ -28,16 +28,16 @@ void add(OutsideRange& a, const OutsideRange& b) {
 
 OutsideRange look(const Gas& gas, std::size_t block, std::size_t fluid, const equation_of_state::DensityRange& range) {
   OutsideRange found;
-  const int first = Content::fluids(gas.dimensions()) + static_cast<int>(fluid) * gas.fluid_quantities();
-  const int volume_at = gas.fluids.size() == 1 ? Content::room : first + Content::volume;
-  const Lanes* const masses = gas.content.at(block, first);
+  const auto of_fluid = [&](int quantity) { return Content::of(gas.dimensions(), fluid, quantity); };
+  const int volume_at = gas.fluids.size() == 1 ? Content::cell_volume : of_fluid(Content::volume);
+  const Lanes* const masses = gas.content.at(block, of_fluid(Content::mass));
   const Lanes* const volumes = gas.content.at(block, volume_at);
-  const Lanes* const rooms = gas.content.at(block, Content::room);
+  const Lanes* const cell_volumes = gas.content.at(block, Content::cell_volume);
   for (int k = 0; k < gas.cells.packs(); ++k) {
     const Lanes mass = masses[k], volume = volumes[k];
     LanesMask outside = (mass > range.highest * volume) | (mass < range.lowest * volume);
     if (none(outside)) continue;
-    outside &= (volume > least_part * rooms[k]) & lanes_of(cells_inside(gas.cells, block, k));
+    outside &= (volume > least_part * cell_volumes[k]) & lanes_of(cells_inside(gas.cells, block, k));
     const Lanes density = mass / volume, excess = max(density * (1.0 / range.highest), range.lowest / density);
     for (int l = 0; l < 8; ++l) {
       const int cell = 8 * k + l;

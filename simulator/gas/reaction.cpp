@@ -58,8 +58,8 @@ void filter_all(Gas& gas, int quantities, Beyond beyond, Domain& domain, F&& ste
 }
 
 Lanes fraction_of(const Gas& gas, int fluid, std::size_t block, int k) {
-  const int volume = Content::fluids(gas.dimensions()) + 3 * fluid + Content::volume;
-  return gas.content.at(block, volume)[k] / gas.content.at(block, Content::room)[k];
+  const int volume = Content::of(gas.dimensions(), fluid, Content::volume);
+  return gas.content.at(block, volume)[k] / gas.content.at(block, Content::cell_volume)[k];
 }
 constexpr auto smooth = [](int, int) { return Stencil::smooth; };
 Lanes fourth_power(const Lanes& x) {
@@ -85,7 +85,7 @@ void find_burning_area(Gas& gas, int fluid, Domain& domain) {
   for_each_pack(gas, [&](std::size_t block, int k) {
     Lanes square(0.0);
     for (int a = 0; a < D; ++a) square += set(block, a, k) * set(block, a, k);
-    gas.burning_area.at(block, 0)[k] = sqrt(square) * inverse_cell_size * gas.content.at(block, Content::room)[k];
+    gas.burning_area.at(block, 0)[k] = sqrt(square) * inverse_cell_size * gas.content.at(block, Content::cell_volume)[k];
     const Lanes reactant = max(fraction_of(gas, fluid, block, k), Lanes(0.0));
     gas.burning_area.at(block, 1)[k] = set(block, 0, k) = reactant * fourth_power(set(block, D, k) * set(block, D, k));
   });
@@ -204,7 +204,6 @@ struct Released {
 std::int64_t burn_block(Gas& gas, CellSet& held, std::size_t number, std::size_t block, double dt) {
   const Burn& burn = gas.burns[number];
   const int D = gas.dimensions();
-  const int from = Content::fluids(D) + 3 * burn.reactant, into = Content::fluids(D) + 3 * burn.product;
   const Fluid& reactant = gas.fluids[static_cast<std::size_t>(burn.reactant)];
   const double heat = std::visit([](const auto& law) { return law.heat(); }, burn.law);
   const bool surface = has_surface(burn.law);
@@ -215,12 +214,13 @@ std::int64_t burn_block(Gas& gas, CellSet& held, std::size_t number, std::size_t
   for (int k = 0; k < gas.cells.packs(); ++k) {
     for (int q = 0; surface && q < Released::count(D); ++q) set_free(q, k) = Lanes(0.0);
     const std::uint8_t inside = cells_inside(gas.cells, block, k);
-    Lanes &mass = at(from + Content::mass, k), &volume = at(from + Content::volume, k);
-    Lanes& internal = at(from + Content::internal, k);
+    const auto of = [&](int fluid, int quantity) -> Lanes& { return at(Content::of(D, fluid, quantity), k); };
+    Lanes &mass = of(burn.reactant, Content::mass), &volume = of(burn.reactant, Content::volume);
+    Lanes& internal = of(burn.reactant, Content::internal);
     const Lanes open = gas.bodies.empty() ? Lanes(1.0) : gas.bodies.open.at(block, 0)[k];
     const LanesMask present = lanes_of(inside) & (mass > 0.0) & (volume > 0.0) & (open > 0.0);
     if (none(present)) continue;
-    Lanes& product = at(into + Content::mass, k);
+    Lanes& product = of(burn.product, Content::mass);
     const Reactant what{gas, burn, block, k, mass, mass + product};
     Arguments state;
     state.density = select(present, mass / volume, Lanes(reactant.usual_density));
@@ -235,7 +235,7 @@ std::int64_t burn_block(Gas& gas, CellSet& held, std::size_t number, std::size_t
     const Lanes wanted = std::visit([&](const auto& law) { return burned_mass(law, what, state, dt); }, burn.law);
     const LanesMask burns = present & (wanted > 0.0);
     if (none(burns)) continue;
-    const Lanes most = most_of_a_cell * reactant.usual_density * at(Content::room, k);
+    const Lanes most = most_of_a_cell * reactant.usual_density * at(Content::cell_volume, k);
     const LanesMask too_much = burns & (wanted > most) & (mass > most);
     const LanesMask last = mass - wanted <= least_unburned * what.together;
     const Lanes burned = select(burns, min(select(last, mass, wanted), select(too_much, most, mass)), Lanes(0.0));
@@ -243,8 +243,7 @@ std::int64_t burn_block(Gas& gas, CellSet& held, std::size_t number, std::size_t
     const Lanes gone = part * volume, taken = part * internal;
     if (surface) {
       Lanes whole(0.0), kinetic(0.0);
-      for (std::size_t r = 0; r < gas.fluids.size(); ++r)
-        whole += at(Content::fluids(D) + 3 * static_cast<int>(r) + Content::mass, k);
+      for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r) whole += of(r, Content::mass);
       for (int a = 0; a < D; ++a) {
         Lanes& momentum = at(Content::momentum + a, k);
         const Lanes carried = burned * (momentum / whole);
@@ -255,8 +254,8 @@ std::int64_t burn_block(Gas& gas, CellSet& held, std::size_t number, std::size_t
       set_free(Released::mass, k) = burned, set_free(Released::volume, k) = gone;
       set_free(Released::internal, k) = taken + heat_free, set_free(Released::energy, k) = taken + heat_free + kinetic;
     } else {
-      product += burned, at(into + Content::volume, k) += gone;
-      at(into + Content::internal, k) += taken + heat_free, at(Content::energy, k) += heat_free;
+      product += burned, of(burn.product, Content::volume) += gone;
+      of(burn.product, Content::internal) += taken + heat_free, at(Content::energy, k) += heat_free;
     }
     mass -= burned, volume -= gone, internal -= taken;
     for (int l = 0; l < 8; ++l) {
@@ -293,15 +292,15 @@ void release(Gas& gas, std::size_t number, Domain& domain) {
   parallel_for_blocks(gas.cells.mine.size(), [&](std::size_t i) {
     const auto block = static_cast<std::size_t>(gas.cells.mine[i]);
     auto& book = gas.passages[static_cast<std::size_t>(gas.book_of_burn[block * gas.burns.size() + number])].step;
-    const int into = Content::fluids(D) + 3 * burn.product;
+    const auto product = [&](int quantity) { return Content::of(D, burn.product, quantity); };
     for (int k = 0; k < gas.cells.packs(); ++k) {
       const auto add = [&](int quantity, int released) {
         const Lanes received = kept(block, count, k) * set(block, released, k);
         gas.moved.at(block, quantity)[k] += received;
         return received;
       };
-      const Lanes mass = add(into + Content::mass, Released::mass);
-      add(into + Content::volume, Released::volume), add(into + Content::internal, Released::internal);
+      const Lanes mass = add(product(Content::mass), Released::mass);
+      add(product(Content::volume), Released::volume), add(product(Content::internal), Released::internal);
       add(Content::energy, Released::energy);
       for (int a = 0; a < D; ++a) add(Content::momentum + a, Released::momentum + a);
       for (int l = 0; l < 8; ++l) book.mass[static_cast<std::size_t>(burn.product)] += mass[l];

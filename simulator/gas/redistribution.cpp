@@ -123,25 +123,25 @@ std::vector<NeighbourhoodMean> redistribute(const Window& w, const Neighbourhood
   for (std::size_t i = 0; i < all.small.size(); ++i) {
     const Neighbourhood& n = all.small[i];
     const std::array<std::size_t, 8>& member = n.members;
-    double base = 0.0, sum = 0.0, room = 0.0;
+    double base = 0.0, sum = 0.0, volume_sum = 0.0;
     for (int m = n.count; m-- > 0;)
       if (volume[member[static_cast<std::size_t>(m)]] > 0.0) base = density[member[static_cast<std::size_t>(m)]];
     for (int m = 0; m < n.count; ++m) {
       const std::size_t cell = member[static_cast<std::size_t>(m)];
       const double part = 1.0 / all.overlaps[cell];
       if (volume[cell] > 0.0)
-        sum += part * volume[cell] * (density[cell] - base), room += part * volume[cell];
+        sum += part * volume[cell] * (density[cell] - base), volume_sum += part * volume[cell];
       else
         sum += part * covered[cell];
     }
-    mean[i].value = room > 0.0 ? base + sum / room : base;
-    if (!slope || !(room > 0.0)) continue;
+    mean[i].value = volume_sum > 0.0 ? base + sum / volume_sum : base;
+    if (!slope || !(volume_sum > 0.0)) continue;
     for (int m = n.count; m-- > 0;) {
       const std::size_t cell = member[static_cast<std::size_t>(m)];
       if (!(volume[cell] > 0.0)) continue;
       mean[i].slope = slope(cell);
       const std::array<int, 3> index = w.index(cell);
-      for (std::size_t a = 0; a < 3; ++a) mean[i].middle[a] += volume[cell] / all.overlaps[cell] / room * index[a];
+      for (std::size_t a = 0; a < 3; ++a) mean[i].middle[a] += volume[cell] / all.overlaps[cell] / volume_sum * index[a];
     }
   }
   // A cell takes the mean of the neighbourhoods that it is in, those of the cells around it in order.

@@ -13,12 +13,29 @@
 namespace brisance::simulator::gas {
 namespace {
 
-/// What leaves a cell through a face depends on its own slopes alone, so both neighbours of the face compute the same.
+/// The cells of a pencil after the Lagrangian phase, and what passes its faces along the axis. What leaves a cell depends on
+/// its own slopes alone, so both neighbours of a face compute the same.
 template <int D>
-struct Donors {
-  Pencil mass, density, energy;  // kg; kg/m^3; J/m^3, internal
-  Pencil velocity[D], velocity_slope[D];
+struct SweptPencil {
+  std::size_t block;
+  int axis, number;
+  Pencil volume, total, momentum[D];      // what the cells hold: m^3, J, kg m/s
+  Pencil mass, density, energy;           // kg; kg/m^3; J/m^3, internal
+  Pencil velocity[D], velocity_slope[D];  // m/s; the slope from cell to cell
+  Pencil first_order;                     // 1 where a cell does without slopes, if any do
+  const Lanes* swept;                     // m^3
+  FacePencil dE, dp[D];                   // J, N s
 
+  SweptPencil(Gas& gas, std::size_t of_block, int along, int n)
+      : block(of_block), axis(along), number(n), swept(gas.swept_faces(of_block, along, n)) {
+    if (gas.any_first_order) load<D>(gas.cells, gas.half_step, block, HalfStep::first_order(D), axis, number, first_order);
+    load_moved(gas, Content::cell_volume, volume);
+    load_moved(gas, Content::energy, total);
+    for (int a = 0; a < D; ++a) load_moved(gas, Content::momentum + a, momentum[a]);
+  }
+  void load_moved(const Gas& gas, int quantity, Pencil& held) const {
+    load<D>(gas.cells, gas.moved, block, quantity, axis, number, held);
+  }
   void find_slopes() {
     for (int a = 0; a < D; ++a)
       for (std::size_t c = ring - 1; c <= ring + line; ++c) velocity_slope[a][c] = slope(velocity[a], c);
@@ -59,67 +76,75 @@ struct Giving {
   }
 };
 
-/// `plain` is there in careful steps.
-Giving giving_at(const Lanes& swept, const Pencil& room, const Pencil* plain, std::size_t face) {
-  Giving g{ring + face - 1, ring + face, swept > 0.0, Lanes(0.0), Lanes(1.0)};
-  g.part = abs(swept) / g.of(room);
-  if (plain) g.order = select((*plain)[g.low] + (*plain)[g.high] > 0.0, Lanes(0.0), Lanes(1.0));
+template <int D>
+Giving giving_at(const Gas& gas, const SweptPencil<D>& p, std::size_t face) {
+  Giving g{ring + face - 1, ring + face, p.swept[face] > 0.0, Lanes(0.0), Lanes(1.0)};
+  g.part = abs(p.swept[face]) / g.of(p.volume);
+  if (gas.any_first_order) g.order = select(p.first_order[g.low] + p.first_order[g.high] > 0.0, Lanes(0.0), Lanes(1.0));
   return g;
+}
+
+/// Asks the memory for a part of what the next pencil reads and writes.
+template <int D>
+[[gnu::always_inline]] inline void ask_for(const NextPencil<D>& next, const Gas& gas, std::size_t part) {
+  if (part >= line) return;
+  next.fetch(gas.moved, 0, gas.contents(), part);
+  next.fetch_to_write(gas.next, 0, gas.contents(), part);
 }
 
 /// Marks the cells number m of a pencil's lines.
 template <int D>
-void mark(Gas& gas, std::size_t block, int axis, int n, std::size_t m, const LanesMask& cells) {
+void mark(Gas& gas, const SweptPencil<D>& p, std::size_t m, const LanesMask& cells) {
   Pencil marks;
-  load_own<D>(gas.marks, block, 0, axis, n, marks);
+  load_own<D>(gas.marks, p.block, 0, p.axis, p.number, marks);
   marks[ring + m] = select(cells, Lanes(1.0), marks[ring + m]);
-  store<D>(gas.marks, block, 0, axis, n, marks);
+  store<D>(gas.marks, p.block, 0, p.axis, p.number, marks);
 }
 
 /// How many of the cells beside a face of a pencil that give are in the box: of rows beyond it nothing counts.
 template <int D>
-std::int64_t count_inside(const Gas& gas, std::size_t block, int axis, int n, std::size_t face, const LanesMask& which) {
+std::int64_t count_inside(const Gas& gas, const SweptPencil<D>& p, std::size_t face, const LanesMask& which) {
   const int above = std::min(static_cast<int>(face), line - 1), below = static_cast<int>(face) - 1;
-  LanesMask inside = lanes_inside<D>(gas.cells, block, axis, n, above);
-  if (below >= 0) inside |= lanes_inside<D>(gas.cells, block, axis, n, below);
+  LanesMask inside = lanes_inside<D>(gas.cells, p.block, p.axis, p.number, above);
+  if (below >= 0) inside |= lanes_inside<D>(gas.cells, p.block, p.axis, p.number, below);
   std::int64_t count = 0;
   for (int l = 0; l < 8; ++l) count += which[l] && inside[l] ? 1 : 0;
   return count;
 }
 
+/// How a mass goes through a face with its momentum.
 struct Carried {
   Lanes kinetic;    // J
   Lanes heat_kept;  // part of the heat
   LanesMask flattened;
   Lanes steepness;  // (m/s)^2, of the velocity from cell to cell
 };
-/// Momentum that goes with a mass (positive along the axis) into dp.
+/// Momentum that goes with a mass (positive along the axis).
 template <int D>
-Carried carry_momentum(const Giving& giving, const Donors<D>& donors, const Lanes& mass, std::size_t face,
-                       FacePencil (&dp)[D]) {
-  const Lanes part = abs(mass) / giving.of(donors.mass);
+Carried carry_momentum(SweptPencil<D>& p, const Giving& giving, const Lanes& mass, std::size_t face) {
+  const Lanes part = abs(mass) / giving.of(p.mass);
   Lanes steepness(0.0), slopes[D];
   for (int a = 0; a < D; ++a) {
-    slopes[a] = giving.of(donors.velocity_slope[a]);
+    slopes[a] = giving.of(p.velocity_slope[a]);
     steepness += slopes[a] * slopes[a];
   }
   const Leaving leaving =
-      leaving_with_momentum(giving.up, part, giving.of(donors.density), steepness, giving.of(donors.energy), giving.order);
+      leaving_with_momentum(giving.up, part, giving.of(p.density), steepness, giving.of(p.energy), giving.order);
   Carried carried{Lanes(0.0), leaving.heat_kept, leaving.too_steep, steepness};
   for (int a = 0; a < D; ++a) {
-    const Lanes u = giving.of(donors.velocity[a]) + leaving.offset * slopes[a];
-    dp[a][face] = mass * u, carried.kinetic += 0.5 * mass * u * u;
+    const Lanes u = giving.of(p.velocity[a]) + leaving.offset * slopes[a];
+    p.dp[a][face] = mass * u, carried.kinetic += 0.5 * mass * u * u;
   }
   return carried;
 }
-
 /// How many of the cells that give through a face have lost slopes that could be noticed.
 template <int D>
-std::int64_t count_flattened(const Gas& gas, std::size_t block, int axis, int n, std::size_t face, const Giving& giving,
+std::int64_t count_flattened(const Gas& gas, const SweptPencil<D>& p, std::size_t face, const Giving& giving,
                              const Carried& carried) {
+  if (none(carried.flattened)) return 0;
   Pencil sound;
-  load<D>(gas.cells, gas.primitive, block, Primitive::sound_speed, axis, n, sound);
-  return count_inside<D>(gas, block, axis, n, face, carried.flattened & noticeable(carried.steepness, giving.of(sound)));
+  load<D>(gas.cells, gas.primitive, p.block, Primitive::sound_speed, p.axis, p.number, sound);
+  return count_inside(gas, p, face, carried.flattened & noticeable(carried.steepness, giving.of(sound)));
 }
 
 /// A fluid that fills a cell, with its mass (kg); -1: none does.
@@ -129,28 +154,56 @@ struct Filled {
 };
 /// Calls let_out(face, lane, donor, fluid, flow, internal) for the fans of a pencil: donor among its cells, internal energy (J)
 /// of what leaves. `filled(donor, lane)`: only cells of one fluid have fans.
-template <class WhatFills, class LetOut>
-void for_each_fan(const Gas& gas, std::size_t block, int axis, int n, const Lanes* swept, const WhatFills& filled,
-                  const LetOut& let_out) {
-  for (const Fan& fan : gas.fans[block]) {
-    if (fan.axis != axis || fan.pencil != n) continue;
+template <int D, class WhatFills, class LetOut>
+void for_each_fan(const Gas& gas, const SweptPencil<D>& p, const WhatFills& filled, const LetOut& let_out) {
+  for (const Fan& fan : gas.fans[p.block]) {
+    if (fan.axis != p.axis || fan.pencil != p.number) continue;
     const auto f = static_cast<std::size_t>(fan.face);
     for (int l = 0; l < 8; ++l) {
       if (!fan.opens[l]) continue;
-      const std::size_t donor = swept[f][l] > 0.0 ? ring + f - 1 : ring + f;
+      const double swept = p.swept[f][l];
+      const std::size_t donor = swept > 0.0 ? ring + f - 1 : ring + f;
       const auto [r, held] = filled(donor, l);
       if (r < 0) continue;
       const Fluid& fluid = gas.fluids[static_cast<std::size_t>(r)];
-      const std::optional<FanFlow> flow = flow_of(fan, l, swept[f][l], [&](double density, double pressure) {
+      const std::optional<FanFlow> flow = flow_of(fan, l, swept, [&](double density, double pressure) {
         return energy_of(fluid.equation_of_state, density, pressure);
       });
       constexpr double most = 0.8;  // of what the donor has
       if (!flow || !(flow->mass < most * held)) continue;
       const double internal = flow->energy - 0.5 * flow->momentum * flow->momentum / flow->mass;
-      const double cold = flow->mass * coldest_energy(fluid, Lanes(flow->mass / std::abs(swept[f][l])))[0];
+      const double cold = flow->mass * coldest_energy(fluid, Lanes(flow->mass / std::abs(swept)))[0];
       if (internal > cold) let_out(f, l, donor, r, *flow, internal);
     }
   }
+}
+
+/// Keeps what the cells of a pencil hold of a quantity when that has passed its faces.
+template <int D, class Flow>
+void exchange(Gas& gas, const SweptPencil<D>& p, int quantity, Pencil& held, const Flow& flow) {
+  for (std::size_t f = 0; f < line; ++f) held[ring + f] -= flow[f + 1] - flow[f];
+  store<D>(gas.next, p.block, quantity, p.axis, p.number, held);
+}
+/// The same of what all fluids have in common.
+template <int D>
+void exchange_common(Gas& gas, SweptPencil<D>& p) {
+  exchange(gas, p, Content::cell_volume, p.volume, p.swept);
+  exchange(gas, p, Content::energy, p.total, p.dE);
+  for (int a = 0; a < D; ++a) exchange(gas, p, Content::momentum + a, p.momentum[a], p.dp[a]);
+}
+
+/// Books what passes the sides of the box; dm(fluid): kg through the faces.
+template <int D, class MassFlow>
+void book(Gas& gas, const SweptPencil<D>& p, const MassFlow& dm) {
+  for_each_passage(gas, p.block, p.axis, p.number, [&](Passage& passage, double sign, std::uint8_t lanes) {
+    const auto f = static_cast<std::size_t>(passage.face);
+    for (int l = 0; l < 8; ++l) {
+      if (!(lanes >> l & 1)) continue;
+      for (std::size_t r = 0; r < gas.fluids.size(); ++r) passage.step.mass[r] += sign * dm(r)[f][l];
+      passage.step.energy += sign * p.dE[f][l];
+      for (std::size_t a = 0; a < D; ++a) passage.step.momentum[a] += sign * p.dp[a][f][l];
+    }
+  });
 }
 
 struct SweepResult {
@@ -158,218 +211,217 @@ struct SweepResult {
   bool good = true;            // no fluid is left with less than nothing
 };
 
+// One fluid
+
+template <int D>
+void find_state(SweptPencil<D>& p) {
+  for (std::size_t c = 0; c < reach; ++c) {
+    p.density[c] = p.mass[c] / p.volume[c];
+    Lanes kinetic(0.0);
+    const Lanes inverse_mass = 1.0 / p.mass[c];
+    for (int a = 0; a < D; ++a)
+      p.velocity[a][c] = p.momentum[a][c] * inverse_mass, kinetic += p.momentum[a][c] * p.velocity[a][c];
+    p.energy[c] = (p.total[c] - 0.5 * kinetic) / p.volume[c];
+  }
+  p.find_slopes();
+}
+
+/// What passes a face; returns how many slopes have been flattened.
+template <int D>
+std::int64_t pass(const Gas& gas, SweptPencil<D>& p, FacePencil& dm, std::size_t f) {
+  const Giving giving = giving_at(gas, p, f);
+  // A shock steepens itself. Held together like a contact, and with fourth order, it rings.
+  const std::size_t l = giving.low, h = giving.high;
+  const Pencil& e = p.energy;
+  const Lanes closing = max(Lanes(p.velocity[p.axis][l] - p.velocity[p.axis][h]), Lanes(0.0));
+  const Lanes calm =
+      away_from_shocks(giving.up, e[l - 1], e[l], e[h], e[h + 1], min(p.density[l], p.density[h]) * closing * closing);
+  dm[f] = p.swept[f] * giving.leaving(p.density, calm, Lanes(1.0));
+  const Carried carried = carry_momentum(p, giving, dm[f], f);
+  p.dE[f] = p.swept[f] * giving.leaving(e, calm, calm) * carried.heat_kept + carried.kinetic;
+  return count_flattened(gas, p, f, giving, carried);
+}
+
+template <int D>
+void let_fans_out(const Gas& gas, SweptPencil<D>& p, FacePencil& dm) {
+  const auto filled = [&](std::size_t c, int l) { return Filled{0, p.mass[c][l]}; };
+  for_each_fan(gas, p, filled, [&](std::size_t f, int l, std::size_t donor, int, const FanFlow& flow, double) {
+    const double sign = p.swept[f][l] > 0.0 ? 1.0 : -1.0, along = sign * flow.mass;
+    double motion = 0.0;
+    for (int a = 0; a < D; ++a) {
+      const double u = p.velocity[a][donor][l];
+      p.dp[a][f].set(l, a == p.axis ? flow.momentum : along * u);
+      if (a != p.axis) motion += 0.5 * along * u * u;
+    }
+    dm[f].set(l, along), p.dE[f].set(l, sign * flow.energy + motion);
+  });
+}
+
 template <int D>
 [[gnu::flatten]] SweepResult sweep_single(Gas& gas, std::size_t block, int axis) {
-  constexpr int mass_at = Content::fluids(D) + Content::mass;
+  constexpr int mass_at = Content::of(D, 0, Content::mass);
   SweepResult result;
   for (int n = 0; n < BlockShape<D>::pencils; ++n) {
-    Donors<D> donors;
-    auto& [mass, density, energy, velocity, velocity_slope] = donors;
-    Pencil room, total, momentum[D], plain;
-    if (gas.careful) load<D>(gas.cells, gas.half_step, block, HalfStep::plain(D), axis, n, plain);
-    load<D>(gas.cells, gas.moved, block, Content::room, axis, n, room);
-    load<D>(gas.cells, gas.moved, block, Content::energy, axis, n, total);
-    load<D>(gas.cells, gas.moved, block, mass_at, axis, n, mass);
-    for (int a = 0; a < D; ++a) load<D>(gas.cells, gas.moved, block, Content::momentum + a, axis, n, momentum[a]);
-    for (std::size_t c = 0; c < reach; ++c) {
-      density[c] = mass[c] / room[c];
-      Lanes kinetic(0.0);
-      const Lanes inverse_mass = 1.0 / mass[c];
-      for (int a = 0; a < D; ++a) velocity[a][c] = momentum[a][c] * inverse_mass, kinetic += momentum[a][c] * velocity[a][c];
-      energy[c] = (total[c] - 0.5 * kinetic) / room[c];
-    }
-    donors.find_slopes();
-    const Lanes* swept = gas.swept_faces(block, axis, n);
+    SweptPencil<D> p(gas, block, axis, n);
+    FacePencil dm;  // kg
+    p.load_moved(gas, mass_at, p.mass);
+    find_state(p);
     const NextPencil<D> next(gas.cells, block, axis, n);
-    FacePencil dm, dE, dp[D];
     for (std::size_t f = 0; f < line_faces; ++f) {
-      if (f < line) {
-        next.fetch(gas.moved, 0, gas.contents(), f);
-        next.fetch_to_write(gas.next, 0, gas.contents(), f);
-      }
-      const Giving giving = giving_at(swept[f], room, gas.careful ? &plain : nullptr, f);
-      // A shock steepens itself. Held together like a contact, and with fourth order, it rings.
-      const std::size_t l = giving.low, h = giving.high;
-      const Lanes closing = max(Lanes(velocity[axis][l] - velocity[axis][h]), Lanes(0.0));
-      const Lanes calm = away_from_shocks(giving.up, energy[l - 1], energy[l], energy[h], energy[h + 1],
-                                          min(density[l], density[h]) * closing * closing);
-      const Lanes leaving = swept[f] * giving.leaving(density, calm, Lanes(1.0));
-      dm[f] = leaving;
-      const Carried carried = carry_momentum<D>(giving, donors, leaving, f, dp);
-      if (any(carried.flattened)) result.flattened += count_flattened<D>(gas, block, axis, n, f, giving, carried);
-      dE[f] = swept[f] * giving.leaving(energy, calm, calm) * carried.heat_kept + carried.kinetic;
+      ask_for(next, gas, f);
+      result.flattened += pass(gas, p, dm, f);
     }
-    for_each_fan(
-        gas, block, axis, n, swept,
-        [&](std::size_t c, int l) {
-          return Filled{0, mass[c][l]};
-        },
-        [&](std::size_t f, int l, std::size_t donor, int, const FanFlow& flow, double) {
-          const double along = swept[f][l] > 0.0 ? flow.mass : -flow.mass;
-          double motion = 0.0;
-          for (int a = 0; a < D; ++a) {
-            const double u = velocity[a][donor][l];
-            dp[a][f].set(l, a == axis ? flow.momentum : along * u);
-            if (a != axis) motion += 0.5 * along * u * u;
-          }
-          dm[f].set(l, along), dE[f].set(l, (swept[f][l] > 0.0 ? flow.energy : -flow.energy) + motion);
-        });
-    for (std::size_t f = 0; f < line; ++f) {
-      const std::size_t c = ring + f;
-      room[c] -= swept[f + 1] - swept[f];
-      mass[c] -= dm[f + 1] - dm[f];
-      total[c] -= dE[f + 1] - dE[f];
-      for (int a = 0; a < D; ++a) momentum[a][c] -= dp[a][f + 1] - dp[a][f];
-    }
-    store<D>(gas.next, block, Content::room, axis, n, room);
-    store<D>(gas.next, block, Content::energy, axis, n, total);
-    store<D>(gas.next, block, mass_at, axis, n, mass);
-    for (int a = 0; a < D; ++a) store<D>(gas.next, block, Content::momentum + a, axis, n, momentum[a]);
-    for_each_passage(gas, block, axis, n, [&](Passage& passage, double sign, std::uint8_t lanes) {
-      const auto f = static_cast<std::size_t>(passage.face);
-      for (int l = 0; l < 8; ++l) {
-        if (!(lanes >> l & 1)) continue;
-        passage.step.mass[0] += sign * dm[f][l], passage.step.energy += sign * dE[f][l];
-        for (std::size_t a = 0; a < D; ++a) passage.step.momentum[a] += sign * dp[a][f][l];
-      }
-    });
+    let_fans_out(gas, p, dm);
+    exchange_common(gas, p);
+    exchange(gas, p, mass_at, p.mass, dm);
+    book(gas, p, [&](std::size_t) -> const FacePencil& { return dm; });
   }
   return result;
 }
 
+// Several fluids
+
+struct FluidPencils {
+  Pencil mass, volume, internal;  // what the cells hold of the fluid: kg, m^3, J
+  Pencil part, density, energy;   // of their volumes; kg/m^3, J/m^3, by its own volume
+  std::array<LanesMask, reach> present;
+  FacePencil dm, dV, dI;  // kg, m^3, J
+};
+using Mixture = std::vector<FluidPencils>;
+
+template <int D>
+void load_fluid(const Gas& gas, const SweptPencil<D>& p, std::size_t r, FluidPencils& at) {
+  p.load_moved(gas, Content::of(D, r, Content::mass), at.mass);
+  p.load_moved(gas, Content::of(D, r, Content::volume), at.volume);
+  p.load_moved(gas, Content::of(D, r, Content::internal), at.internal);
+  for (std::size_t c = 0; c < reach; ++c) {
+    at.present[c] = is_present(at.volume[c], at.mass[c], p.volume[c]);
+    at.part[c] = at.volume[c] / p.volume[c];
+    const Lanes volume = select(at.present[c], at.volume[c], Lanes(1.0));
+    at.density[c] = at.mass[c] / volume, at.energy[c] = at.internal[c] / volume;
+  }
+}
+
+template <int D>
+void find_state(const Gas& gas, SweptPencil<D>& p, Mixture& fluids) {
+  p.mass.fill(Lanes(0.0)), p.energy.fill(Lanes(0.0));
+  for (std::size_t r = 0; r < fluids.size(); ++r) {
+    load_fluid(gas, p, r, fluids[r]);
+    for (std::size_t c = 0; c < reach; ++c) p.mass[c] += fluids[r].mass[c], p.energy[c] += fluids[r].internal[c];
+  }
+  for (std::size_t c = 0; c < reach; ++c) {
+    p.density[c] = p.mass[c] / p.volume[c], p.energy[c] /= p.volume[c];
+    for (int a = 0; a < D; ++a) p.velocity[a][c] = p.momentum[a][c] / p.mass[c];
+  }
+  p.find_slopes();
+}
+
+/// The volumes of the fluids that pass a face are together what it has swept. What the limits leave over goes to the largest.
+/// Of a fluid of which there is next to nothing as much leaves as of the cell.
+void share_swept_volume(const Giving& giving, const Lanes& swept, Mixture& fluids, std::size_t f) {
+  constexpr double most = 0.999;  // of what the donor has
+  const Lanes all = abs(swept), sign = select(giving.up, Lanes(1.0), Lanes(-1.0));
+  Lanes left = all, largest(0.0);
+  for (FluidPencils& at : fluids) {
+    const LanesMask here = giving.of(at.present), whole = giving.of(at.part) > 1.0 - least_fraction;
+    const Lanes volume = giving.of(at.volume), wanted = max(Lanes(all * giving.leaving(at.part)), Lanes(0.0));
+    at.dV[f] = select(whole, all, select(here, min(wanted, Lanes(most * volume)), giving.part * volume));
+    left -= at.dV[f], largest = max(largest, volume);
+  }
+  LanesMask given(false);
+  for (FluidPencils& at : fluids) {
+    const LanesMask most_of_it = (giving.of(at.volume) == largest) & !given;
+    given |= most_of_it;
+    at.dV[f] = sign * (at.dV[f] + select(most_of_it, left, Lanes(0.0)));
+  }
+}
+
+/// Mass and internal energy that go with a fluid's volume.
+void carry_fluid(const Giving& giving, FluidPencils& at, std::size_t f) {
+  const LanesMask here = giving.of(at.present), sloped = giving.sloped(at.present, at.part);
+  const Lanes sign = select(giving.up, Lanes(1.0), Lanes(-1.0)), residue = sign * giving.part;
+  const Lanes own_part = min(Lanes(sign * at.dV[f] / max(giving.of(at.volume), Lanes(1e-300))), Lanes(0.9999));
+  const auto leaving = [&](const Pencil& per_volume, const Pencil& held) {
+    return select(here, at.dV[f] * giving.leaving(per_volume, sloped, own_part), residue * giving.of(held));
+  };
+  at.dm[f] = leaving(at.density, at.mass), at.dI[f] = leaving(at.energy, at.internal);
+}
+
+/// What passes a face; returns how many slopes have been flattened.
+template <int D>
+std::int64_t pass(const Gas& gas, SweptPencil<D>& p, Mixture& fluids, std::size_t f) {
+  const Giving giving = giving_at(gas, p, f);
+  share_swept_volume(giving, p.swept[f], fluids, f);
+  Lanes dm(0.0), dI(0.0);
+  for (FluidPencils& at : fluids) {
+    carry_fluid(giving, at, f);
+    dm += at.dm[f], dI += at.dI[f];
+  }
+  const Carried carried = carry_momentum(p, giving, dm, f);
+  p.dE[f] = dI * carried.heat_kept + carried.kinetic;
+  return count_flattened(gas, p, f, giving, carried);
+}
+
+template <int D>
+void let_fans_out(const Gas& gas, SweptPencil<D>& p, Mixture& fluids) {
+  const auto filled = [&](std::size_t c, int l) {
+    for (std::size_t r = 0; r < fluids.size(); ++r)
+      if (fluids[r].part[c][l] > nearly_all) return Filled{static_cast<int>(r), fluids[r].mass[c][l]};
+    return Filled{};
+  };
+  for_each_fan(gas, p, filled, [&](std::size_t f, int l, std::size_t donor, int filling, const FanFlow& flow, double internal) {
+    const double sign = p.swept[f][l] > 0.0 ? 1.0 : -1.0, along = sign * flow.mass;
+    FluidPencils& at = fluids[static_cast<std::size_t>(filling)];
+    at.dm[f].set(l, along), at.dI[f].set(l, sign * internal);
+    double traces = 0.0, carried = sign * flow.energy;  // traces of others leave as they would
+    for (const FluidPencils& other : fluids)
+      if (&other != &at) traces += other.dm[f][l], carried += other.dI[f][l];
+    for (int a = 0; a < D; ++a) {
+      const double u = p.velocity[a][donor][l], beside = a == p.axis ? traces : traces + along;
+      p.dp[a][f].set(l, beside * u + (a == p.axis ? flow.momentum : 0.0));
+      carried += 0.5 * beside * u * u;
+    }
+    p.dE[f].set(l, carried);
+  });
+}
+
+/// Whether no own cell is left with less than nothing of a fluid. Marks those that are.
+template <int D>
+bool nothing_is_overdrawn(Gas& gas, const SweptPencil<D>& p, const FluidPencils& at) {
+  bool good = true;
+  for (std::size_t f = 0; f < line; ++f) {
+    const std::size_t c = ring + f;
+    const LanesMask overdrawn = ((at.mass[c] < 0.0) | (at.volume[c] < -1e-14 * p.volume[c])) &
+                                lanes_inside<D>(gas.cells, p.block, p.axis, p.number, static_cast<int>(f));
+    if (none(overdrawn)) continue;
+    mark(gas, p, f, overdrawn);
+    good = false;
+  }
+  return good;
+}
+
 template <int D>
 [[gnu::flatten]] SweepResult sweep_mixture(Gas& gas, std::size_t block, int axis) {
-  const std::size_t fluids = gas.fluids.size();
   SweepResult result;
-  struct FluidPencils {
-    Pencil mass, volume, internal, part, density, energy;
-    std::array<LanesMask, reach> present;
-    FacePencil dm, dV, dI;
-  };
-  std::vector<FluidPencils> fluid(fluids);
+  Mixture fluids(gas.fluids.size());
   for (int n = 0; n < BlockShape<D>::pencils; ++n) {
-    Donors<D> donors;
-    auto& [mass, density, energy, velocity, velocity_slope] = donors;
-    Pencil room, total, momentum[D], plain;
-    if (gas.careful) load<D>(gas.cells, gas.half_step, block, HalfStep::plain(D), axis, n, plain);
-    load<D>(gas.cells, gas.moved, block, Content::room, axis, n, room);
-    load<D>(gas.cells, gas.moved, block, Content::energy, axis, n, total);
-    for (int a = 0; a < D; ++a) load<D>(gas.cells, gas.moved, block, Content::momentum + a, axis, n, momentum[a]);
-    mass.fill(Lanes(0.0)), energy.fill(Lanes(0.0));
-    for (std::size_t r = 0; r < fluids; ++r) {
-      FluidPencils& at = fluid[r];
-      const int first = Content::fluids(D) + 3 * static_cast<int>(r);
-      load<D>(gas.cells, gas.moved, block, first + Content::mass, axis, n, at.mass);
-      load<D>(gas.cells, gas.moved, block, first + Content::volume, axis, n, at.volume);
-      load<D>(gas.cells, gas.moved, block, first + Content::internal, axis, n, at.internal);
-      for (std::size_t c = 0; c < reach; ++c) {
-        at.present[c] = is_present(at.volume[c], at.mass[c], room[c]);
-        at.part[c] = at.volume[c] / room[c];
-        const Lanes volume = select(at.present[c], at.volume[c], Lanes(1.0));
-        at.density[c] = at.mass[c] / volume, at.energy[c] = at.internal[c] / volume;
-        mass[c] += at.mass[c], energy[c] += at.internal[c];
-      }
-    }
-    for (std::size_t c = 0; c < reach; ++c) {
-      density[c] = mass[c] / room[c], energy[c] /= room[c];
-      for (int a = 0; a < D; ++a) velocity[a][c] = momentum[a][c] / mass[c];
-    }
-    donors.find_slopes();
-    const Lanes* swept = gas.swept_faces(block, axis, n);
+    SweptPencil<D> p(gas, block, axis, n);
+    find_state(gas, p, fluids);
     const NextPencil<D> next(gas.cells, block, axis, n);
-    FacePencil dE, dp[D];
     for (std::size_t f = 0; f < line_faces; ++f) {
-      if (f < line) {
-        next.fetch(gas.moved, 0, gas.contents(), f);
-        next.fetch_to_write(gas.next, 0, gas.contents(), f);
-      }
-      const Giving giving = giving_at(swept[f], room, gas.careful ? &plain : nullptr, f);
-      const Lanes q = abs(swept[f]);
-      // Volumes first: together they are what the face has swept. What the limits leave over goes to the largest. Of a fluid of
-      // which there is next to nothing as much leaves as of the cell.
-      constexpr double most = 0.999;  // of what the donor has
-      Lanes left = q, largest(0.0);
-      for (FluidPencils& at : fluid) {
-        const LanesMask here = giving.of(at.present), whole = giving.of(at.part) > 1.0 - least_fraction;
-        const Lanes volume = giving.of(at.volume), wanted = max(Lanes(q * giving.leaving(at.part)), Lanes(0.0));
-        at.dV[f] = select(whole, q, select(here, min(wanted, Lanes(most * volume)), giving.part * volume));
-        left -= at.dV[f], largest = max(largest, volume);
-      }
-      LanesMask given(false);
-      Lanes dm_all(0.0), dI_all(0.0);
-      const Lanes sign = select(giving.up, Lanes(1.0), Lanes(-1.0));
-      for (FluidPencils& at : fluid) {
-        const LanesMask here = giving.of(at.present), most_of_it = (giving.of(at.volume) == largest) & !given;
-        given |= most_of_it;
-        const Lanes volume = at.dV[f] + select(most_of_it, left, Lanes(0.0));
-        at.dV[f] = sign * volume;
-        const Lanes own_part = min(Lanes(volume / max(giving.of(at.volume), Lanes(1e-300))), Lanes(0.9999));
-        const LanesMask sloped = giving.sloped(at.present, at.part);
-        const Lanes dm = at.dV[f] * giving.leaving(at.density, sloped, own_part);
-        const Lanes dI = at.dV[f] * giving.leaving(at.energy, sloped, own_part);
-        const Lanes residue = sign * giving.part;
-        at.dm[f] = select(here, dm, residue * giving.of(at.mass)),
-        at.dI[f] = select(here, dI, residue * giving.of(at.internal));
-        dm_all += at.dm[f], dI_all += at.dI[f];
-      }
-      const Carried carried = carry_momentum<D>(giving, donors, dm_all, f, dp);
-      if (any(carried.flattened)) result.flattened += count_flattened<D>(gas, block, axis, n, f, giving, carried);
-      dE[f] = dI_all * carried.heat_kept + carried.kinetic;
+      ask_for(next, gas, f);
+      result.flattened += pass(gas, p, fluids, f);
     }
-    const auto filled = [&](std::size_t c, int l) {
-      for (std::size_t r = 0; r < fluids; ++r)
-        if (fluid[r].part[c][l] > nearly_all) return Filled{static_cast<int>(r), fluid[r].mass[c][l]};
-      return Filled{};
-    };
-    for_each_fan(gas, block, axis, n, swept, filled,
-                 [&](std::size_t f, int l, std::size_t donor, int filling, const FanFlow& flow, double internal) {
-                   const double sign = swept[f][l] > 0.0 ? 1.0 : -1.0, along = sign * flow.mass;
-                   FluidPencils& at = fluid[static_cast<std::size_t>(filling)];
-                   at.dm[f].set(l, along), at.dI[f].set(l, sign * internal);
-                   double traces = 0.0, carried = sign * flow.energy;  // traces of others leave as they would
-                   for (const FluidPencils& other : fluid)
-                     if (&other != &at) traces += other.dm[f][l], carried += other.dI[f][l];
-                   for (int a = 0; a < D; ++a) {
-                     const double u = velocity[a][donor][l], beside = a == axis ? traces : traces + along;
-                     dp[a][f].set(l, beside * u + (a == axis ? flow.momentum : 0.0));
-                     carried += 0.5 * beside * u * u;
-                   }
-                   dE[f].set(l, carried);
-                 });
-    for (std::size_t f = 0; f < line; ++f) {
-      const std::size_t c = ring + f;
-      room[c] -= swept[f + 1] - swept[f];
-      total[c] -= dE[f + 1] - dE[f];
-      for (int a = 0; a < D; ++a) momentum[a][c] -= dp[a][f + 1] - dp[a][f];
-      for (FluidPencils& at : fluid) {
-        at.mass[c] -= at.dm[f + 1] - at.dm[f];
-        at.volume[c] -= at.dV[f + 1] - at.dV[f];
-        at.internal[c] -= at.dI[f + 1] - at.dI[f];
-        const LanesMask overdrawn = ((at.mass[c] < 0.0) | (at.volume[c] < -1e-14 * room[c])) &
-                                    lanes_inside<D>(gas.cells, block, axis, n, static_cast<int>(f));
-        if (none(overdrawn)) continue;
-        mark<D>(gas, block, axis, n, f, overdrawn);
-        result.good = false;
-      }
+    let_fans_out(gas, p, fluids);
+    exchange_common(gas, p);
+    for (std::size_t r = 0; r < fluids.size(); ++r) {
+      FluidPencils& at = fluids[r];
+      exchange(gas, p, Content::of(D, r, Content::mass), at.mass, at.dm);
+      exchange(gas, p, Content::of(D, r, Content::volume), at.volume, at.dV);
+      exchange(gas, p, Content::of(D, r, Content::internal), at.internal, at.dI);
+      result.good = nothing_is_overdrawn(gas, p, at) && result.good;
     }
-    store<D>(gas.next, block, Content::room, axis, n, room);
-    store<D>(gas.next, block, Content::energy, axis, n, total);
-    for (int a = 0; a < D; ++a) store<D>(gas.next, block, Content::momentum + a, axis, n, momentum[a]);
-    for (std::size_t r = 0; r < fluids; ++r) {
-      const int first = Content::fluids(D) + 3 * static_cast<int>(r);
-      store<D>(gas.next, block, first + Content::mass, axis, n, fluid[r].mass);
-      store<D>(gas.next, block, first + Content::volume, axis, n, fluid[r].volume);
-      store<D>(gas.next, block, first + Content::internal, axis, n, fluid[r].internal);
-    }
-    for_each_passage(gas, block, axis, n, [&](Passage& passage, double sign, std::uint8_t lanes) {
-      const auto f = static_cast<std::size_t>(passage.face);
-      for (int l = 0; l < 8; ++l) {
-        if (!(lanes >> l & 1)) continue;
-        for (std::size_t r = 0; r < fluids; ++r) passage.step.mass[r] += sign * fluid[r].dm[f][l];
-        passage.step.energy += sign * dE[f][l];
-        for (std::size_t a = 0; a < D; ++a) passage.step.momentum[a] += sign * dp[a][f][l];
-      }
-    });
+    book(gas, p, [&](std::size_t r) -> const FacePencil& { return fluids[r].dm; });
   }
   return result;
 }

@@ -32,8 +32,7 @@ Warmth warmth_of(const Fluid& fluid, const Lanes& mass, const Lanes& volume, con
 template <int D>
 Lanes kinetic_energy(const Gas& gas, const CellSet& set, std::size_t block, int k) {
   Lanes mass(0.0), square(0.0);
-  for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r)
-    mass += set.at(block, Content::fluids(D) + r * gas.fluid_quantities() + Content::mass)[k];
+  for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r) mass += set.at(block, Content::of(D, r, Content::mass))[k];
   for (int a = 0; a < D; ++a) {
     const Lanes p = set.at(block, Content::momentum + a)[k];
     square += p * p;
@@ -43,13 +42,12 @@ Lanes kinetic_energy(const Gas& gas, const CellSet& set, std::size_t block, int 
 
 std::vector<Warmth> warmths_of(const Gas& gas, const CellSet& set, std::size_t block, int k, const Lanes& internal) {
   std::vector<Warmth> all;
-  const int first = Content::fluids(gas.dimensions());
+  const auto of = [&](int r, int quantity) { return set.at(block, Content::of(gas.dimensions(), r, quantity))[k]; };
   if (gas.fluids.size() == 1)
-    return {warmth_of(gas.fluids[0], set.at(block, first)[k], set.at(block, Content::room)[k], internal)};
+    return {warmth_of(gas.fluids[0], of(0, Content::mass), set.at(block, Content::cell_volume)[k], internal)};
   for (int r = 0; r < static_cast<int>(gas.fluids.size()); ++r)
-    all.push_back(warmth_of(gas.fluids[static_cast<std::size_t>(r)], set.at(block, first + 3 * r + Content::mass)[k],
-                            set.at(block, first + 3 * r + Content::volume)[k],
-                            set.at(block, first + 3 * r + Content::internal)[k]));
+    all.push_back(warmth_of(gas.fluids[static_cast<std::size_t>(r)], of(r, Content::mass), of(r, Content::volume),
+                            of(r, Content::internal)));
   return all;
 }
 
@@ -87,17 +85,17 @@ double prepare(Gas& gas, std::size_t block) {
     const std::uint8_t inside = cells_inside(gas.cells, block, k);
     const Lanes internal = gas.content.at(block, Content::energy)[k] - kinetic_energy<D>(gas, gas.content, block, k);
     const std::vector<Warmth> warmths = warmths_of(gas, gas.content, block, k, internal);
-    const Lanes room = gas.content.at(block, Content::room)[k], density = gas.primitive.at(block, Primitive::density)[k];
+    const Lanes cell_volume = gas.content.at(block, Content::cell_volume)[k],
+                density = gas.primitive.at(block, Primitive::density)[k];
     Lanes viscosity(0.0), bulk(0.0), conductivity(0.0), capacity(0.0), heat(0.0);
     for (std::size_t r = 0; r < gas.fluids.size(); ++r) {
       const Fluid& fluid = gas.fluids[r];
-      const Lanes part = gas.fluids.size() == 1
-                             ? Lanes(1.0)
-                             : gas.content.at(block, Content::fluids(D) + 3 * static_cast<int>(r) + Content::volume)[k] / room;
+      const Lanes part =
+          gas.fluids.size() == 1 ? Lanes(1.0) : gas.content.at(block, Content::of(D, r, Content::volume))[k] / cell_volume;
       viscosity += fluid.viscosity * part, bulk += fluid.bulk_viscosity * part, conductivity += fluid.conductivity * part;
       capacity += warmths[r].capacity, heat += warmths[r].capacity * warmths[r].temperature;
     }
-    const Lanes of_momentum = ((4.0 / 3.0) * viscosity + bulk) / density, of_heat = conductivity * room / capacity;
+    const Lanes of_momentum = ((4.0 / 3.0) * viscosity + bulk) / density, of_heat = conductivity * cell_volume / capacity;
     for (int l = 0; l < 8; ++l)
       if (inside >> l & 1) fastest = std::max({fastest, of_momentum[l], of_heat[l]});
     const auto put = [&](int quantity, const Lanes& value) { gas.transport.at(block, quantity)[k] = value; };
@@ -223,11 +221,11 @@ void add_fluxes(Gas& gas, std::size_t block, double dt) {
 }
 
 /// Heat between the fluids of some cells, J to each.
-void exchange_heat(const Gas& gas, const std::vector<Warmth>& warmths, const std::vector<Lanes>& parts, const Lanes& room,
-                   double dt, std::vector<Lanes>& gained) {
+void exchange_heat(const Gas& gas, const std::vector<Warmth>& warmths, const std::vector<Lanes>& parts,
+                   const Lanes& cell_volume, double dt, std::vector<Lanes>& gained) {
   std::vector<Lanes> temperatures, capacities;
   for (const Warmth& w : warmths) temperatures.push_back(w.temperature), capacities.push_back(w.capacity);
-  exchange<Lanes>(temperatures, capacities, parts, dt * gas.heat_exchange * room);
+  exchange<Lanes>(temperatures, capacities, parts, dt * gas.heat_exchange * cell_volume);
   // What rounding left over goes to the fluid with most volume.
   Lanes rest(0.0), largest(0.0);
   for (std::size_t r = 0; r < warmths.size(); ++r) {
@@ -255,19 +253,18 @@ void apply(Gas& gas, std::size_t block, double dt) {
   if (fluids == 1) return;
   std::vector<Lanes> parts(fluids), gained(fluids);
   for (int k = 0; k < packs; ++k) {
-    const Lanes heat = internal(k) - before[static_cast<std::size_t>(k)], room = gas.moved.at(block, Content::room)[k];
+    const Lanes heat = internal(k) - before[static_cast<std::size_t>(k)],
+                cell_volume = gas.moved.at(block, Content::cell_volume)[k];
     std::vector<Warmth> warmths = warmths_of(gas, gas.moved, block, k, Lanes(0.0));
     Lanes capacity(0.0);
-    const auto of = [&](std::size_t r, int quantity) -> Lanes& {
-      return gas.moved.at(block, Content::fluids(D) + 3 * static_cast<int>(r) + quantity)[k];
-    };
-    for (std::size_t r = 0; r < fluids; ++r) capacity += warmths[r].capacity, parts[r] = of(r, Content::volume) / room;
+    const auto of = [&](std::size_t r, int quantity) -> Lanes& { return gas.moved.at(block, Content::of(D, r, quantity))[k]; };
+    for (std::size_t r = 0; r < fluids; ++r) capacity += warmths[r].capacity, parts[r] = of(r, Content::volume) / cell_volume;
     for (std::size_t r = 0; r < fluids; ++r) {
       of(r, Content::internal) += heat * warmths[r].capacity / capacity;
       warmths[r].temperature += heat / capacity;
     }
     if (gas.heat_exchange == 0.0) continue;
-    exchange_heat(gas, warmths, parts, room, dt, gained);
+    exchange_heat(gas, warmths, parts, cell_volume, dt, gained);
     for (std::size_t r = 0; r < fluids; ++r) of(r, Content::internal) += gained[r];
   }
 }
@@ -298,8 +295,7 @@ void warm_alike(const Gas& gas, CellSet& set, std::size_t block, int k, const La
   const std::vector<Warmth> warmths = warmths_of(gas, set, block, k, Lanes(0.0));
   for (const Warmth& w : warmths) capacity += w.capacity;
   for (std::size_t r = 0; r < warmths.size(); ++r)
-    set.at(block, Content::fluids(gas.dimensions()) + 3 * static_cast<int>(r) + Content::internal)[k] +=
-        heat * warmths[r].capacity / capacity;
+    set.at(block, Content::of(gas.dimensions(), r, Content::internal))[k] += heat * warmths[r].capacity / capacity;
 }
 
 void apply_transport(Gas& gas, double dt) {

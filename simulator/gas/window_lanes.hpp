@@ -16,6 +16,10 @@ inline std::size_t offset(const Window& w, std::size_t axis) {
 inline Lanes at(const Column& column, std::size_t n) {
   return Lanes::load(column.data() + n);
 }
+/// Which column of the content holds a quantity of a fluid.
+inline std::size_t content_of(const Window& w, std::size_t fluid, int quantity) {
+  return static_cast<std::size_t>(Content::of(w.dimensions, fluid, quantity));
+}
 /// Volumes of eight whole cells; before and after the window those of its ends.
 inline Lanes whole_volumes(const Cells& cells, const Window& w, std::size_t n) {
   Lanes whole;

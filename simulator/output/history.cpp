@@ -58,10 +58,11 @@ GasBooks gas_books_of(const Simulation& s) {
   for (const gas::Fluid& fluid : s.gas.fluids) books.fluids.push_back(fluid.name);
   books.state = scaled(gas::totals(s.gas, *s.domain)), books.initial = scaled(s.gas.initial);
   books.gravity = s.gas.gravity != Vector{};
-  const std::vector<double> counts = gas::sum_of_ranks(
-      {static_cast<double>(s.gas.plain), static_cast<double>(s.gas.flattened), static_cast<double>(s.gas.capped)}, 3,
-      *s.domain);
-  books.plain = static_cast<std::int64_t>(counts[0]), books.flattened = static_cast<std::int64_t>(counts[1]);
+  const std::vector<double> counts =
+      gas::sum_of_ranks({static_cast<double>(s.gas.first_order_cell_steps), static_cast<double>(s.gas.flattened),
+                         static_cast<double>(s.gas.capped)},
+                        3, *s.domain);
+  books.first_order_cell_steps = static_cast<std::int64_t>(counts[0]), books.flattened = static_cast<std::int64_t>(counts[1]);
   books.capped = static_cast<std::int64_t>(counts[2]);
   const std::vector<gas::Totals> passed = gas::passed(s.gas, *s.domain);
   const std::size_t edges = s.gas.edges.size();

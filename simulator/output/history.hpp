@@ -42,8 +42,8 @@ struct GasBooks {
   std::vector<std::string> fluids;
   gas::Totals state, initial;
   std::vector<std::pair<std::string, gas::Totals>> entries;
-  bool gravity = false;                   // acts
-  std::int64_t plain = 0, flattened = 0;  // as in Gas, of all processes
+  bool gravity = false;                                    // acts
+  std::int64_t first_order_cell_steps = 0, flattened = 0;  // as in Gas, of all processes
   std::vector<ReactionBook> reactions;
   std::int64_t capped = 0;  // times that a cell wanted to burn more in a step than it may
   std::vector<GasBodyBooks> bodies;

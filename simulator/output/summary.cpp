@@ -51,19 +51,19 @@ std::string in_words(const GasBodyBooks& body, const Books& all) {
 
 /// Words on what the scheme did less exactly than it could; empty if it never had to.
 std::string caution_in_words(const GasBooks& books, double cells_times_steps) {
-  if (books.plain + books.flattened == 0) return "";
+  if (books.first_order_cell_steps + books.flattened == 0) return "";
   constexpr double few = 0.01;
   const auto part_of_all = [&](std::int64_t count) { return static_cast<double>(count) / std::max(cells_times_steps, 1.0); };
   std::string text = "  caution: ";
-  if (books.plain > 0)
-    text += fmt::format("{} times a cell took a step with first order ({:.2g} % of all cells and steps)", books.plain,
-                        100.0 * part_of_all(books.plain));
+  if (books.first_order_cell_steps > 0)
+    text += fmt::format("{} times a cell took a step with first order ({:.2g} % of all cells and steps)",
+                        books.first_order_cell_steps, 100.0 * part_of_all(books.first_order_cell_steps));
   if (books.flattened > 0)
-    text += fmt::format("{}{} times a change of velocity within a cell was made gentler", books.plain > 0 ? ", " : "",
-                        books.flattened);
+    text += fmt::format("{}{} times a change of velocity within a cell was made gentler",
+                        books.first_order_cell_steps > 0 ? ", " : "", books.flattened);
   text += ", or a cell would have lost more energy than it has. There the result is smeared, not wrong; ";
   return text +
-         (part_of_all(books.plain + books.flattened) > few
+         (part_of_all(books.first_order_cell_steps + books.flattened) > few
               ? "so much of it may show: look where the gas is nearly empty, take smaller cells or steps (gas.courant)"
               : "so little of it needs no action") +
          '\n';
@@ -219,7 +219,7 @@ void write_summary(const Summary& s, const std::filesystem::path& path) {
     all.set("failed_particles", failed);
   }
   if (s.books.gas) {
-    all.set("first_order_cell_steps", s.books.gas->plain).set("flattened_slopes", s.books.gas->flattened);
+    all.set("first_order_cell_steps", s.books.gas->first_order_cell_steps).set("flattened_slopes", s.books.gas->flattened);
     Json outside = Json::object();
     for (const gas::RangeReport& report : s.books.gas->outside) outside.set(report.fluid, json_of(report));
     all.set("outside_declared_densities", outside).set("not_gated", s.not_gated);

@@ -34,17 +34,17 @@ TEST(TableReader, KnowsWhatIsSound) {
   TableReader inner = top.table("inner"), number = top.table("number");
   for (TableReader* table : {&top, &inner})
     for (const char* key : {"wrong", "right", "missing"}) static_cast<void>(table->number(key, length));
-  EXPECT_TRUE(top.sound({"right"}) && inner.sound({"right"}) && top.sound({"list", "never_asked_for"}));
-  for (const char* key : {"wrong", "missing"}) EXPECT_FALSE(top.sound({key}) || inner.sound({key, "right"})) << key;
-  EXPECT_FALSE(top.sound({"inner"})) << "what is within it is not";
-  EXPECT_FALSE(number.sound({"right"}) || top.sound_in_file({"number.right"})) << "there is nothing within it";
+  EXPECT_TRUE(top.valid({"right"}) && inner.valid({"right"}) && top.valid({"list", "never_asked_for"}));
+  for (const char* key : {"wrong", "missing"}) EXPECT_FALSE(top.valid({key}) || inner.valid({key, "right"})) << key;
+  EXPECT_FALSE(top.valid({"inner"})) << "what is within it is not";
+  EXPECT_FALSE(number.valid({"right"}) || top.valid_in_file({"number.right"})) << "there is nothing within it";
   std::vector<TableReader> list = top.tables("list");
   list[1].problem("it is refused");
-  EXPECT_TRUE(top.sound({"list.0"}));
-  EXPECT_FALSE(top.sound({"list"}) || top.sound_in_file({"list.1"}));
-  EXPECT_TRUE(list[1].sound({"depth"})) << "the table is refused, not what it holds";
+  EXPECT_TRUE(top.valid({"list.0"}));
+  EXPECT_FALSE(top.valid({"list"}) || top.valid_in_file({"list.1"}));
+  EXPECT_TRUE(list[1].valid({"depth"})) << "the table is refused, not what it holds";
   list[0].add_problems("file", std::vector<Problem>{{"other.csv", 0, 0, "", "it is empty"}});
-  EXPECT_FALSE(list[0].sound({"file"}));
+  EXPECT_FALSE(list[0].valid({"file"}));
 }
 
 TEST(TableReader, GivesTheValuesOfTheFile) {

@@ -125,7 +125,7 @@ void expect_closed_books(const Problem& problem, const Gas& gas, const Totals& b
   }
 }
 
-/// In each cell the fluids fill the room and hold the energy that is not of motion; nothing is less than nothing.
+/// In each cell the fluids fill it and hold the energy that is not of motion; nothing is less than nothing.
 void expect_whole_cells(const Problem& problem, const Gas& gas) {
   const int D = gas.dimensions();
   set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
@@ -133,12 +133,12 @@ void expect_whole_cells(const Problem& problem, const Gas& gas) {
     double mass = 0.0, volume = 0.0, internal = 0.0, square = 0.0;
     const int fluids = static_cast<int>(gas.fluids.size());
     for (int r = 0; r < fluids; ++r) {
-      const int first = Content::fluids(D) + r * gas.fluid_quantities();
-      mass += at(first + Content::mass);
-      ASSERT_GE(at(first + Content::mass), 0.0) << problem.name;
+      const auto own = [&](int quantity) { return at(Content::of(D, r, quantity)); };
+      mass += own(Content::mass);
+      ASSERT_GE(own(Content::mass), 0.0) << problem.name;
       if (fluids == 1) continue;
-      ASSERT_GE(at(first + Content::volume), -1e-14 * c.volume) << problem.name;
-      volume += at(first + Content::volume), internal += at(first + Content::internal);
+      ASSERT_GE(own(Content::volume), -1e-14 * c.volume) << problem.name;
+      volume += own(Content::volume), internal += own(Content::internal);
     }
     for (int a = 0; a < D; ++a) square += at(Content::momentum + a) * at(Content::momentum + a);
     ASSERT_GT(mass, 0.0) << problem.name;

@@ -131,7 +131,7 @@ TEST(CutCells, ComeToOnePressureWithoutLosingEnergy) {
       filled(Geometry::plane, {air, water},
              {fill_of("air", 1.2, 1e5), in_sphere(fill_of("water", 1000.0, 1e8), {0.51, 0.47, 0}, radius)}, *domain);
   set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
-    const double mass_of_water = gas.content.cell(c.block, Content::fluids(2) + 3 + Content::mass, c.number);
+    const double mass_of_water = gas.content.cell(c.block, Content::of(2, 1, Content::mass), c.number);
     const double part = mass_of_water / (1000.0 * c.volume);
     const double energy = gas.content.cell(c.block, Content::energy, c.number) / c.volume;
     constexpr double rounding = 1e-13;

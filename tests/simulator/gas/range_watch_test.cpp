@@ -44,9 +44,10 @@ struct Streams {
 void look(const Gas& gas, std::int64_t& count, double& densest) {
   set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
     if (set_up::fraction(gas, c, 0) < 1e-3) return;
-    const int first = Content::fluids(gas.dimensions());
-    const double density = gas.content.cell(c.block, first + Content::mass, c.number) /
-                           gas.content.cell(c.block, first + Content::volume, c.number);
+    const auto at = [&](int quantity) {
+      return gas.content.cell(c.block, Content::of(gas.dimensions(), 0, quantity), c.number);
+    };
+    const double density = at(Content::mass) / at(Content::volume);
     count += density > highest ? 1 : 0, densest = std::max(densest, density);
   });
 }

@@ -200,7 +200,8 @@ TEST(Ignition, LightsASurfaceThatIsTooCold) {
   const auto burned_above = [&] {
     double sum = 0.0;
     gas::set_up::for_each_cell(gas, [&](const gas::set_up::Cell& c) {
-      if (c.centre[1] > 3.0 * gas.cells.cell_size) sum += gas.content.cell(c.block, gas::Content::fluids(2) + 3, c.number);
+      if (c.centre[1] > 3.0 * gas.cells.cell_size)
+        sum += gas.content.cell(c.block, gas::Content::of(2, 1, gas::Content::mass), c.number);
     });
     return sum;
   };

@@ -105,7 +105,7 @@ double front_velocity(const Stick& stick, Gas& gas, double from, double to, Doma
 int zone(const Gas& gas) {
   int cells = 0;
   set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
-    const auto mass = [&](int fluid) { return gas.content.cell(c.block, Content::fluids(1) + 3 * fluid, c.number); };
+    const auto mass = [&](int fluid) { return gas.content.cell(c.block, Content::of(1, fluid, Content::mass), c.number); };
     const double F = mass(1) / (mass(0) + mass(1));
     cells += F > 0.01 && F < 0.9;
   });
@@ -176,7 +176,7 @@ TEST(ProgramBurn, ArrivesWhenItShouldAndSetsItsHeatFree) {
   stepper.to(gas, end, *domain);
   double longest = 0.0;
   set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
-    const auto mass = [&](int fluid) { return gas.content.cell(c.block, Content::fluids(2) + 3 * fluid, c.number); };
+    const auto mass = [&](int fluid) { return gas.content.cell(c.block, Content::of(2, fluid, Content::mass), c.number); };
     const double arrival = std::min(c.centre[0] / D, later + (magnitude(c.centre - corner) - radius) / D);
     const double F = mass(1) / (mass(0) + mass(1)), program = std::clamp(D * (end - arrival) / (3.0 * h), 0.0, 1.0);
     // What flows in from the cell behind has burned more.
@@ -221,7 +221,7 @@ double area_of_ball(Geometry geometry, double radius, const Vector& centre, bool
         }
     const double part = static_cast<double>(inside) / all;
     const auto at = [&](int fluid) -> double& {
-      return gas.content.cell(c.block, Content::fluids(D) + 3 * fluid + Content::volume, c.number);
+      return gas.content.cell(c.block, Content::of(D, fluid, Content::volume), c.number);
     };
     at(0) = part * c.volume, at(1) = (1.0 - part) * c.volume;
   });
@@ -410,19 +410,19 @@ TEST(ClosedBomb, AtThePublishedRateIsThatOfAMovingSurface) {
   for (const double t : {0.2e-3, 0.5e-3, 1e-3, 1.5e-3}) {
     advance_to(reference, t);
     stepper.to(gas, t, *domain);
-    double pressure = 0.0, room = 0.0;
+    double pressure = 0.0, volume = 0.0;
     set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
       const double free = set_up::fraction(gas, c, 1);
-      pressure += free * c.pressure, room += free;
+      pressure += free * c.pressure, volume += free;
     });
     const double burned = 1.0 - totals(gas, *domain).mass[0] * Bomb::area / Bomb::charge;
     const double expected = reference.burned * Bomb::area / Bomb::charge;
     EXPECT_NEAR(burned / expected, 1.0, part) << t;
-    EXPECT_NEAR(pressure / room / mean_pressure(reference), 1.0, part) << t;
+    EXPECT_NEAR(pressure / volume / mean_pressure(reference), 1.0, part) << t;
     const double solid = one_pressure[static_cast<std::size_t>(std::lround(t / dt))].solid;
     EXPECT_GT(expected / (1.0 - solid / Bomb::charge), 1.3) << t;
     RecordProperty(std::to_string(t * 1e3) + "_ms", std::to_string(burned) + " of " + std::to_string(expected) + ", pressure " +
-                                                        std::to_string(pressure / room / mean_pressure(reference)));
+                                                        std::to_string(pressure / volume / mean_pressure(reference)));
   }
 }
 

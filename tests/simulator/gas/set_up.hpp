@@ -88,7 +88,7 @@ void for_each_cell(const Gas& gas, F&& f) {
     for (int c = 0; c < 8 * gas.cells.packs(); ++c) {
       const std::array<int, 3> index = gas.cells.index(block, c);
       if (!gas.cells.contains(index)) continue;
-      Cell cell{index, gas.cells.centre(block, c), gas.content.cell(block, Content::room, c), {}, {}, {}, {}, block, c};
+      Cell cell{index, gas.cells.centre(block, c), gas.content.cell(block, Content::cell_volume, c), {}, {}, {}, {}, block, c};
       cell.density = gas.primitive.cell(block, Primitive::density, c);
       cell.pressure = gas.primitive.cell(block, Primitive::pressure, c);
       cell.sound_speed = gas.primitive.cell(block, Primitive::sound_speed, c);
@@ -101,8 +101,7 @@ void for_each_cell(const Gas& gas, F&& f) {
 /// Part of a cell's volume that a fluid takes.
 inline double fraction(const Gas& gas, const Cell& cell, int fluid) {
   if (gas.fluids.size() == 1) return 1.0;
-  return gas.content.cell(cell.block, Content::fluids(gas.dimensions()) + 3 * fluid + Content::volume, cell.number) /
-         cell.volume;
+  return gas.content.cell(cell.block, Content::of(gas.dimensions(), fluid, Content::volume), cell.number) / cell.volume;
 }
 /// The cells along a line, in order.
 inline std::vector<GasState> profile(const Gas& gas) {

@@ -209,8 +209,8 @@ struct Before {
   double mass, volume, energy;
 };
 
-/// The pressure at which the fluids fill the room, by bisection in bisection. Each works against the final pressure.
-double bisected_pressure(const std::vector<Before>& all, double room) {
+/// The pressure at which the fluids fill the cell, by bisection in bisection. Each works against the final pressure.
+double bisected_pressure(const std::vector<Before>& all, double cell_volume) {
   const auto volume_at = [](const Before& b, double p) {
     const auto excess = [&](double v) {
       return eos::pressure(b.fluid->equation_of_state, 1.0 / v, b.energy - p * (v - b.volume)) - p;
@@ -231,7 +231,7 @@ double bisected_pressure(const std::vector<Before>& all, double room) {
   for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high)) {
     double sum = 0.0;
     for (const Before& b : all) sum += b.mass * volume_at(b, middle);
-    (sum > room ? low : high) = middle;
+    (sum > cell_volume ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -250,9 +250,9 @@ TEST(Equilibrium, IsFoundForAnyFluidsAndIsThatOfBisection) {
     std::vector<Fluid> fluids;
     std::vector<FluidShare> shares(static_cast<std::size_t>(n));
     for (int r = 0; r < n; ++r) fluids.push_back(all[random() % all.size()]);
-    Lanes room;
+    Lanes cell_volume;
     for (int l = 0; l < 8; ++l) {
-      room.set(l, logarithmic(1e-9, 1.0));
+      cell_volume.set(l, logarithmic(1e-9, 1.0));
       std::vector<double> part;
       double sum = 0.0;
       for (int r = 0; r < n; ++r) part.push_back(logarithmic(1e-8, 1.0)), sum += part.back();
@@ -261,7 +261,7 @@ TEST(Equilibrium, IsFoundForAnyFluidsAndIsThatOfBisection) {
         const auto i = static_cast<std::size_t>(r);
         const EquationOfState& law = fluids[i].equation_of_state;
         const double temperature = between(250.0, 3000.0), density = eos::density_at(law, logarithmic(1e4, 1e10), temperature);
-        const double volume = r + 1 < n ? room[l] * part[i] / sum : room[l] - filled;
+        const double volume = r + 1 < n ? cell_volume[l] * part[i] / sum : cell_volume[l] - filled;
         filled += volume;
         const double energy = eos::energy(law, density, temperature);
         shares[i].mass.set(l, density * volume), shares[i].volume.set(l, volume),
@@ -269,7 +269,7 @@ TEST(Equilibrium, IsFoundForAnyFluidsAndIsThatOfBisection) {
       }
     }
     std::vector<FluidShare> relaxed = shares;
-    const Lanes pressure = equilibrate(fluids, shares, room, &count);
+    const Lanes pressure = equilibrate(fluids, shares, cell_volume, &count);
     for (int l = 0; l < 8; ++l) {
       double volume = 0.0, stiffest = 0.0;
       bool good = std::isfinite(pressure[l]);
@@ -278,17 +278,17 @@ TEST(Equilibrium, IsFoundForAnyFluidsAndIsThatOfBisection) {
         good = good && s.volume[l] > 0.0 && std::isfinite(s.internal[l]);
         stiffest = std::max(stiffest, s.bulk_modulus[l]);
       }
-      good = good && std::abs(volume / room[l] - 1.0) < 1e-12;
+      good = good && std::abs(volume / cell_volume[l] - 1.0) < 1e-12;
       if (!good) ++failures;
       // Bisection takes a thousand times as long.
       if (pack % 25 != 0) continue;
-      relax(fluids, relaxed, room, l);
+      relax(fluids, relaxed, cell_volume, l);
       std::vector<Before> before;
       for (std::size_t i = 0; i < relaxed.size(); ++i) {
         const double m = relaxed[i].mass[l];
         before.push_back({&fluids[i], m, relaxed[i].volume[l] / m, relaxed[i].internal[l] / m});
       }
-      const double exact = bisected_pressure(before, room[l]);
+      const double exact = bisected_pressure(before, cell_volume[l]);
       // What the pressures' own rounding leaves.
       const double rounding = 1e-13 * stiffest;
       const double off = (std::abs(pressure[l] - exact) - rounding) / std::abs(exact);
@@ -393,8 +393,7 @@ std::string impossible(const Gas& gas) {
     if (!(c.density > 0.0) || !std::isfinite(c.density)) return tell("density", c.density);
     if (!std::isfinite(c.pressure) || !(c.sound_speed > 0.0)) return tell("pressure", c.pressure);
     for (std::size_t r = 0; r < gas.fluids.size(); ++r) {
-      const int first = Content::fluids(1) + 3 * static_cast<int>(r);
-      const auto at = [&](int q) { return gas.content.cell(c.block, first + q, c.number); };
+      const auto at = [&](int q) { return gas.content.cell(c.block, Content::of(1, r, q), c.number); };
       const double mass = at(Content::mass), volume = at(Content::volume);
       if (volume < -1e-14 * c.volume) return tell(gas.fluids[r].name + ": volume", volume / c.volume);
       if (mass < 0.0) return tell(gas.fluids[r].name + ": mass", mass);
@@ -414,7 +413,7 @@ TEST(RiemannProblem, AtRandomLeavesNothingImpossible) {
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   const int problems = long_tests() ? 10000 : 500;
   int failures = 0;
-  std::int64_t plain = 0;
+  std::int64_t first_order_cell_steps = 0;
   for (int n = 0; n < problems; ++n) {
     std::vector<Fluid> fluids = {all[random() % all.size()], all[random() % all.size()]};
     std::array<Filling, 2> side;
@@ -444,7 +443,7 @@ TEST(RiemannProblem, AtRandomLeavesNothingImpossible) {
     } catch (const std::exception& e) {
       trouble = e.what();
     }
-    plain += gas.plain;
+    first_order_cell_steps += gas.first_order_cell_steps;
     if (!trouble.empty() && ++failures <= 20)
       std::cout << "problem " << n << ", step " << gas.step << ": " << trouble << "; " << fluids[0].name << " "
                 << side[0].density << " kg/m^3, " << side[0].pressure << " Pa, " << side[0].velocity[0] << " m/s | "
@@ -452,7 +451,7 @@ TEST(RiemannProblem, AtRandomLeavesNothingImpossible) {
                 << " m/s\n";
   }
   EXPECT_EQ(failures, 0);
-  RecordProperty("cells_without_slopes", std::to_string(plain));
+  RecordProperty("cells_without_slopes", std::to_string(first_order_cell_steps));
 }
 
 /// Products at 7.7 GPa and 250 K stand on their cold curve; slopes would cool them below it where they are let go.
@@ -470,9 +469,9 @@ TEST(RiemannProblem, OfColdProductsDoesWithoutSlopesWhereTheyWouldCoolBelowTheCo
   const Totals before = totals(gas, *domain);
   Stepper().steps(gas, 15, *domain);
   EXPECT_EQ(impossible(gas), "");
-  EXPECT_GT(gas.plain, 0);
+  EXPECT_GT(gas.first_order_cell_steps, 0);
   // A few cells in a few steps: the rest keeps its second order.
-  EXPECT_LT(gas.plain, 64);
+  EXPECT_LT(gas.first_order_cell_steps, 64);
   const Totals after = totals(gas, *domain);
   const std::vector<Totals> through = passed(gas, *domain);
   double energy = before.energy, mass = before.mass[1];
@@ -595,8 +594,7 @@ TEST(FrictionAlongShocks, WarmsTheFluidsOfACellAlike) {
     set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
       if (c.index != std::array{0, 0, 0}) return;
       for (int r = 0; r < 2; ++r)
-        energies[static_cast<std::size_t>(r)] =
-            gas.moved.cell(c.block, Content::fluids(3) + 3 * r + Content::internal, c.number);
+        energies[static_cast<std::size_t>(r)] = gas.moved.cell(c.block, Content::of(3, r, Content::internal), c.number);
     });
     return energies;
   };

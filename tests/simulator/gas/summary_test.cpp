@@ -69,10 +69,9 @@ TEST(TheSummaryOfSeveralFluids, TellsTheHottestCellsWithAndWithoutThoseThatTheyS
   EXPECT_FALSE(gas::is_doubtful(pure));
   // A tenth of the volume of one cell is given to the other fluid, and all of its heat stays with the first.
   const gas::CellPlace at = *gas::find_cell(gas, pure.of_all.place);
-  const int first = gas::Content::fluids(gas.dimensions()), second = first + gas.fluid_quantities();
   const bool of_first = gas.fluids[0].name == pure.of_all.fluid.fluid;
   const auto value = [&](bool one, int quantity) -> double& {
-    return s.gas.content.cell(at.block, (one == of_first ? first : second) + quantity, at.cell);
+    return s.gas.content.cell(at.block, gas::Content::of(gas.dimensions(), one == of_first ? 0 : 1, quantity), at.cell);
   };
   value(false, gas::Content::volume) = 0.1 * value(true, gas::Content::volume);
   value(true, gas::Content::volume) *= 0.9, value(true, gas::Content::internal) *= 3.0;
@@ -94,10 +93,10 @@ TEST(TheSummaryOfGasInCells, SaysWhatCautionMeansAndWhetherToAct) {
   const Case c = read_case(fs::path(BRISANCE_SOURCE_DIR) / "data/cases/sod.toml", {"output.figures=false"});
   Summary summary = summary_of(after_steps(c, 10));
   EXPECT_FALSE(contains(in_words(summary), "caution"));
-  summary.books.gas->plain = 4;  // of 4000
+  summary.books.gas->first_order_cell_steps = 4;  // of 4000
   EXPECT_TRUE(contains(in_words(summary), "4 times a cell took a step with first order (0.1 % of all cells and steps)"));
   EXPECT_TRUE(contains(in_words(summary), "needs no action")) << in_words(summary);
-  summary.books.gas->plain = 400;
+  summary.books.gas->first_order_cell_steps = 400;
   EXPECT_TRUE(contains(in_words(summary), "take smaller cells")) << in_words(summary);
 }
 

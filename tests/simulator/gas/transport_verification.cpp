@@ -237,18 +237,19 @@ TEST(HeatExchange, BringsTwoFluidsToOneTemperature) {
     // Half of each cell becomes the second fluid at the same pressure.
     const auto block = static_cast<std::size_t>(gas.cells.mine[0]);
     for (int c = 0; c < 64; ++c) {
-      const double room = gas.content.cell(block, Content::room, c), energy = gas.content.cell(block, Content::energy, c);
+      const double cell_volume = gas.content.cell(block, Content::cell_volume, c),
+                   energy = gas.content.cell(block, Content::energy, c);
       for (int r = 0; r < 2; ++r) {
-        gas.content.cell(block, Content::fluids(1) + 3 * r + Content::mass, c) = room * (r == 0 ? 0.3 : 0.6);
-        gas.content.cell(block, Content::fluids(1) + 3 * r + Content::volume, c) = 0.5 * room;
-        gas.content.cell(block, Content::fluids(1) + 3 * r + Content::internal, c) = 0.5 * energy;
+        gas.content.cell(block, Content::of(1, r, Content::mass), c) = cell_volume * (r == 0 ? 0.3 : 0.6);
+        gas.content.cell(block, Content::of(1, r, Content::volume), c) = 0.5 * cell_volume;
+        gas.content.cell(block, Content::of(1, r, Content::internal), c) = 0.5 * energy;
       }
     }
     begin(gas, *domain);
     const auto difference = [&] {
       const auto t = [&](int r, double cv) {
-        return gas.content.cell(block, Content::fluids(1) + 3 * r + Content::internal, 3) /
-               (cv * gas.content.cell(block, Content::fluids(1) + 3 * r + Content::mass, 3));
+        return gas.content.cell(block, Content::of(1, r, Content::internal), 3) /
+               (cv * gas.content.cell(block, Content::of(1, r, Content::mass), 3));
       };
       return t(0, 700.0) - t(1, 1400.0);
     };
