@@ -482,9 +482,9 @@ void show_classic(Gas& gas, Domain& domain) {
       double rate = D * at(gas.primitive, Primitive::sound_speed, c.place) / lattice.h;
       for (int a = 0; a < D; ++a) {
         const double motion = std::abs(at(gas.primitive, Primitive::velocity + a, c.place)) / lattice.h;
-        rate += motion, gas.motion_rate = std::max(gas.motion_rate, motion);
+        rate += motion, gas.motion_rate = largest_rate(gas.motion_rate, motion);
       }
-      gas.wave_rate = rate < gas.wave_rate ? gas.wave_rate : rate;
+      gas.wave_rate = largest_rate(gas.wave_rate, rate);
     });
   gas.wave_rate = domain.maximum(gas.wave_rate), gas.motion_rate = domain.maximum(gas.motion_rate);
 }

@@ -202,10 +202,8 @@ Response come_to_equilibrium(Gas& gas, const Pack<D>& p, std::vector<FluidShare>
 /// 1/s; see Gas.
 struct Rates {
   double wave = 0.0, motion = 0.0;
-  /// A state that is no state must not pass for one without waves.
   void note(double other_wave, double other_motion) {
-    wave = other_wave < wave ? wave : other_wave;
-    motion = std::max(motion, other_motion);
+    wave = largest_rate(wave, other_wave), motion = largest_rate(motion, other_motion);
   }
 };
 

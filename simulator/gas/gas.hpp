@@ -7,9 +7,12 @@
 // The scheme keeps the skeleton of ICE (Kashiwa et al., LA-UR-93-3922, 1993) with the acoustic face states of
 // Lagrange-projection schemes (Chalons, Girardin & Kokh, J. Comput. Phys. 335 (2017) 885) and total instead of internal energy.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -261,6 +264,11 @@ using PortionsFunction = std::function<std::vector<Portion>(const Vector& middle
 void fill_in_portions(Gas& gas, const PortionsFunction& portions, Domain& domain);
 /// Pressures and rates from the contents: after filling, and after a restart.
 void begin(Gas& gas, Domain& domain);
+/// The larger of two rates (1/s). What is no number counts as infinite: a state that is none must not pass for one without
+/// waves.
+inline double largest_rate(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::infinity() : std::max(a, b);
+}
 /// The largest step (s) for a Courant number.
 double largest_step(const Gas& gas, double courant);
 enum class Outcome { done, rejected };

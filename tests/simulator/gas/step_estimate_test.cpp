@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "simulator/gas/step_estimate.hpp"
 #include "tests/simulator/gas/bodies_set_up.hpp"
@@ -94,6 +95,26 @@ TEST(StepAfterJumps, OfUniformGasIsTheLargestStep) {
       },
       *domain);
   EXPECT_EQ(step_after_jumps(gas, courant), largest_step(gas, courant));
+}
+
+/// Wherever the cell lies: finite rates come before and after it.
+TEST(LargestStep, IsNoneWhereACellHoldsNoState) {
+  const auto domain = single_process();
+  for (const int wrong : {0, 11, 19}) {
+    Gas gas = set_up::box(Geometry::planar_1d, 0.05, {0, 0, 0}, {20, 0, 0}, {set_up::ideal_gas()}, *domain);
+    fill(
+        gas,
+        [](const Vector&, double) {
+          return Filling{0, 1.2, 1e5, {}};
+        },
+        *domain);
+    EXPECT_GT(largest_step(gas, courant), 0.0);
+    set_up::for_each_cell(gas, [&](const set_up::Cell& c) {
+      if (c.index[0] == wrong) gas.content.cell(c.block, Content::energy, c.number) = std::numeric_limits<double>::quiet_NaN();
+    });
+    begin(gas, *domain);
+    EXPECT_EQ(largest_step(gas, courant), 0.0) << "cell " << wrong;
+  }
 }
 
 }  // namespace
