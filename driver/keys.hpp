@@ -98,8 +98,7 @@ inline constexpr auto keys<SegmentKeys> = std::tuple{
         "ends the segment: size of the change of strain, positive; its direction is that of the strain rate"},
     Key{"until", &SegmentKeys::until, Unit::one,
         "ends the segment: a column of the history and its value, as in { plastic_strain = 0.1 }; \"strain\" and \"stress\" "
-        "are "
-        "those that the mode drives"},
+        "are those that the mode drives"},
     Key{"temperature", &SegmentKeys::temperature, Unit::K, "temperature from the start of the segment", positive},
     Key{"temperature_jump", &SegmentKeys::temperature_jump, Unit::K,
         "added to the temperature at the start, at constant stress"},
@@ -271,8 +270,7 @@ inline constexpr auto keys<PathKeys> = std::tuple{
         Interval{.lower = 0.0, .upper = 0.05, .lower_open = true}},
     Key{"tolerance", &PathKeys::tolerance, Unit::one,
         "largest relative difference, in stress, temperature and plastic strain, between one step and two of half its size, "
-        "which "
-        "are kept; 0: steps are not looked at",
+        "which are kept; 0: steps are not looked at",
         Interval{.lower = 0.0, .upper = 0.1}},
     Key{"cell_size", &PathKeys::cell_size, Unit::m, "length of the artificial viscosity; 0: none", non_negative},
     Key{"initial", &PathKeys::initial, Unit::one, "the state at the start", any_value, required},

@@ -5,7 +5,6 @@
 #include "gallery.hpp"
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -66,14 +65,12 @@ std::string cell(const std::string& text) {
 }
 
 void write_table(const std::vector<Row>& rows, const std::filesystem::path& path) {
-  replace_file(path, [&](const std::filesystem::path& temporary) {
-    auto out = fmt::output_file(temporary.string());
-    out.print("# What the figures of the gallery verify\n\nWritten by `./bootstrap.sh validate`.\n\n");
-    out.print("| figure | quantity | reference | measured | tolerance | result |\n|---|---|---|---|---|---|\n");
-    for (const Row& row : rows)
-      out.print("| {} | {} | {} | {} | {} | {} |\n", row.figure, cell(row.check.quantity), cell(row.check.reference),
-                row.value(), row.limit(), row.verdict());
-  });
+  std::string text = "# What the figures of the gallery verify\n\nWritten by `./bootstrap.sh validate`.\n\n";
+  text += "| figure | quantity | reference | measured | tolerance | result |\n|---|---|---|---|---|---|\n";
+  for (const Row& row : rows)
+    text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", row.figure, cell(row.check.quantity), cell(row.check.reference),
+                        row.value(), row.limit(), row.verdict());
+  replace_file_by_text(path, text);
   fmt::print("table: {}\n", path.string());
 }
 

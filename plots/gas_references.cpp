@@ -4,7 +4,6 @@
 // Nothing in them comes from the solver that they are held against.
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -19,6 +18,7 @@
 #include <vector>
 
 #include "models/equation_of_state/thermodynamics.hpp"
+#include "models/programs/files.hpp"
 #include "simulator/gas/muscl_hllc.hpp"
 #include "tests/simulator/gas/chapman_jouguet.hpp"
 #include "tests/simulator/gas/exact_riemann.hpp"
@@ -39,13 +39,16 @@ struct Table {
 using Tables = std::map<std::string, Table>;  // by the names of their files
 
 void write(const std::filesystem::path& path, const Table& table) {
-  auto out = fmt::output_file(path.string());
-  out.print("# {}\n{}\n", table.comment, table.header);
+  std::string text = fmt::format("# {}\n{}\n", table.comment, table.header);
   for (const std::vector<double>& row : table.rows) {
-    std::string text;
-    for (const double x : row) text += fmt::format("{}{:.{}g}", text.empty() ? "" : ",", x == 0.0 ? 0.0 : x, table.digits);
-    out.print("{}\n", text);
+    const char* separator = "";
+    for (const double x : row) {
+      text += fmt::format("{}{:.{}g}", separator, x == 0.0 ? 0.0 : x, table.digits);
+      separator = ",";
+    }
+    text += '\n';
   }
+  replace_file_by_text(path, text);
 }
 
 constexpr const char* along_x = "x [m],density [kg/m^3],pressure [Pa],velocity [m/s]";

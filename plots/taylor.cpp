@@ -120,18 +120,13 @@ std::string table(const std::vector<Done>& runs, const std::string& commit) {
   std::string text = "# Taylor impacts against experiment\n\n";
   text += fmt::format(
       "Written by `./bootstrap.sh validate`; commit {}. Lengths in mm with the deviation from the measured value; D is the "
-      "mean of "
-      "the three; the profile error is relative to the initial radius. Energies in per cent of the initial kinetic energy: "
-      "plastic "
-      "work, artificial viscosity, and the numerical books (transfer, filter, what of it becomes heat, stress timing); `none` "
-      "is what no book accounts "
-      "for. "
-      "Wall time in seconds, with as many threads as pay, {} at most.\n\n",
+      "mean of the three; the profile error is relative to the initial radius. Energies in per cent of the initial kinetic "
+      "energy: plastic work, artificial viscosity, and the numerical books (transfer, filter, what of it becomes heat, stress "
+      "timing); `none` is what no book accounts for. Wall time in seconds, with as many threads as pay, {} at most.\n\n",
       commit, omp_get_num_procs());
   text +=
       "| test | law | length | diameter | at 0.2 L | D | profile | plastic | viscous | transfer | filter | its heat | timing | "
-      "none | "
-      "particles | wall |\n";
+      "none | particles | wall |\n";
   text += "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Done& d : runs) text += row(d);
   return text;

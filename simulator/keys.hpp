@@ -118,8 +118,7 @@ template <>
 inline constexpr auto keys<BoundaryConfig> = std::tuple{
     Key{"kind", &BoundaryConfig::kind, Unit::one,
         "symmetry: nothing passes; fixed: sticks; velocity: gives what is on its plane a velocity; rigid_wall: bodies may "
-        "leave it "
-        "and slide; outflow: bodies leave through it",
+        "leave it and slide; outflow: bodies leave through it",
         any_value, required},
     Key{"axis", &BoundaryConfig::axis, Unit::one, "axis that the plane is normal to", any_value, required},
     Key{"position", &BoundaryConfig::position, Unit::m, "coordinate of the plane, a multiple of cell_size", any_value,

@@ -11,8 +11,7 @@ struct SteinbergCochranGuinanLund {
       "1/r = exp(2 Uk/(k T) (1 - sT/sP)^2)/C1 + C2/sT,  sT <= sP";
   static constexpr std::string_view source =
       "Steinberg & Lund, J. Appl. Phys. 65 (1989) 1528-1533; thermally activated part after Hoge & Mukherjee, J. Mater. Sci. "
-      "12 "
-      "(1977) 1666-1672. sT stays at sP beyond the rate at which it gets there.";
+      "12 (1977) 1666-1672. sT stays at sP beyond the rate at which it gets there.";
   static constexpr bool needs_melting_temperature = true;
 
   double initial_yield_stress, beta, n, initial_plastic_strain, largest_yield_stress, reference_shear_modulus;

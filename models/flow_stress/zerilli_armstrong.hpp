@@ -11,8 +11,7 @@ struct ZerilliArmstrong {
       "beta = max(beta0 - beta1 ln r, 0); fcc metals have B = K = 0, bcc metals B0 = 0";
   static constexpr std::string_view source =
       "Zerilli & Armstrong, J. Appl. Phys. 61 (1987) 1816-1825. alpha and beta are kept from turning negative, where heat "
-      "would "
-      "harden: our choice.";
+      "would harden: our choice.";
   static constexpr bool needs_melting_temperature = true;
 
   double athermal_stress, hall_petch_slope, grain_size, B, beta0, beta1, B0, alpha0, alpha1, K, n;

@@ -11,8 +11,7 @@ struct BurakovskyPrestonSilbar {
       "Tm0 = kappa lambda mu0 v/(8 pi k ln(z - 1)) ln(alpha^2/(4 b^2 rho_c)),  v = a^3/(atoms per cell)";
   static constexpr std::string_view source =
       "Burakovsky, Preston & Silbar, J. Appl. Phys. 88 (2000) 6294-6301: melting by dislocations. Tension beyond p = -0.9 "
-      "K0/K0' "
-      "counts as that.";
+      "K0/K0' counts as that.";
 
   double bulk_modulus, bulk_modulus_slope, shear_modulus, shear_modulus_slope;
   double kappa, coordination_number, b2_rho_c, alpha, lambda, lattice_parameter, atoms_per_cell;

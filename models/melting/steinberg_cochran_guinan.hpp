@@ -9,8 +9,7 @@ struct SteinbergCochranGuinan {
   static constexpr std::string_view equation = "Tm = Tm0 exp[2 a (1 - 1/eta)] eta^(2 (Gamma0 - a - 1/3)),  eta = rho/rho0";
   static constexpr std::string_view source =
       "Steinberg, Cochran & Guinan, J. Appl. Phys. 51 (1980) 1498-1504: Lindemann's law with Gamma = Gamma0 - a (1 - 1/eta). "
-      "Tm0 "
-      "is fitted over compression and need not be the melting point at ambient pressure.";
+      "Tm0 is fitted over compression and need not be the melting point at ambient pressure.";
 
   double ambient_value, gruneisen, a;
 

@@ -15,8 +15,7 @@ struct SteelLambda {
       "cp = 465.21 + 267.52 t + 58.16 t^-0.35, t = T/1040 K - 1 above;  t >= 0.001, cp in J/(kg K)";
   static constexpr std::string_view source =
       "Form of Lederman, Salamon & Shacklette, Phys. Rev. B 9 (1974) 2981-2988, for the lambda peak of iron at the Curie "
-      "point, "
-      "where it is infinite; the floor of t bounds it at 1.86 kJ/(kg K).";
+      "point, where it is infinite; the floor of t bounds it at 1.86 kJ/(kg K).";
 
   static constexpr auto parameters = std::tuple{};
 
